@@ -209,7 +209,7 @@ void warn_of_no_loop(Document& document, const SmallMotions& motions, const Sign
                      bool nothing_passes) {
   document.warnings.push_back(
       nothing_passes
-          ? fmt::format("nothing passes from {} to {} here{}", from.path, to.path,
+          ? fmt::format("no small motion passes from {} to {}{}", from.path, to.path,
                         motions.cuts.empty() ? ": an opened loop stands between, or no wire leads there" : "")
           : fmt::format("no margins: from {} in {} to {} in {} is no loop gain; name the signal that comes back to "
                         "where the loop is opened, in its unit",
@@ -260,6 +260,8 @@ Answer linearize_verb_act(const Arguments& arguments, const Watch& watch) {
     tell_poles(document, facts, motions);
     const auto& sizes = motions.bode.magnitude;
     const bool nothing_passes = *std::max_element(sizes.begin(), sizes.end()) == 0;
+    if (nothing_passes)
+      document.headline = fmt::format("{} does not move {} at this operating point", from.path, to.path);
     if (loop && !nothing_passes)
       tell_margins(document, facts, motions);
     else if (opened || nothing_passes)

@@ -216,6 +216,7 @@ Answer reproduce(const Arguments& arguments, const Watch& watch) {
   Section overview;
   overview.title = "Claims";
   overview.tables.push_back(claim_table(claims));
+  const auto claim_columns = overview.tables.front().columns;
   document.sections.push_back(std::move(overview));
   std::vector<std::string> chapters;
   for (const auto& job : wanted.jobs)
@@ -224,7 +225,11 @@ Answer reproduce(const Arguments& arguments, const Watch& watch) {
     Document page = chapter_page(chapter, wanted.jobs, results, claims);
     page.warnings = notes_on(wanted.jobs, chapter, pool);
     document.files.emplace_back(chapter + ".html", report_html(page));
-    for (auto& section : page.sections) document.sections.push_back(std::move(section));
+    for (auto& section : page.sections) {
+      if (wanted.jobs.size() == 1)  // its claims are all of them, which stand above
+        std::erase_if(section.tables, [&](const Table& t) { return t.columns == claim_columns; });
+      document.sections.push_back(std::move(section));
+    }
     for (auto& table : page.traces) document.traces.push_back(std::move(table));
     for (auto& file : page.files) document.files.push_back(std::move(file));
   }

@@ -34,6 +34,11 @@ CsvTable table_of(const Program& program, Traces& traces, const std::string& fil
   return table;
 }
 
+/// "stage" of "stage[2]".
+std::string name_of_vector(const std::string& signal) {
+  return signal.ends_with(']') ? signal.substr(0, signal.find('[')) : signal;
+}
+
 /// One figure per unit, so that curves of one figure share an axis.
 void add_figures(Section& section, const CsvTable& table) {
   std::vector<std::string> units;
@@ -58,8 +63,10 @@ void add_figures(Section& section, const CsvTable& table) {
     section.figures[static_cast<std::size_t>(at - units.begin())].curves.push_back(std::move(curve));
   }
   for (auto& figure : section.figures) {
-    std::vector<std::string> names;
-    for (const auto& curve : figure.curves) names.push_back(curve.name);
+    std::vector<std::string> names;  // a vector stands there once, its legend names the elements
+    for (const auto& curve : figure.curves)
+      if (std::string name = name_of_vector(curve.name); names.empty() || names.back() != name)
+        names.push_back(figure.curves.size() == 1 ? curve.name : std::move(name));
     if (names.size() == 1) figure.y_label = names.front() + " " + figure.y_label;
     figure.title = fmt::format("{}", fmt::join(names, ", "));
   }

@@ -44,11 +44,11 @@ Effect stribeck_friction() {
   };
   e.summary = [](const Law&, const std::vector<double>& values, const Excitation& at) {
     if (at.damping) return told_beside_damping(values, at);
-    const std::string level = at.by.empty() ? size_text(values[0], at.unit)
+    const std::string level = at.by.empty() ? "lost motion +-" + size_text(values[0], at.unit)
                                             : fmt::format("{:.3g} {}", values[0] * values[1], turns(at) ? "N m" : "N");
-    if (values.size() < 4) return fmt::format("{} held back", level);
-    return fmt::format("{} held back in fast motion, {:.2g} % more below {:.3g} {}/s", level, 100 * values[2],
-                       1e3 * values[3], turns(at) ? "mrad" : "mm");
+    if (values.size() < 4) return level;
+    return fmt::format("{} in fast motion, {:.2g} % more below {:.3g} {}/s", level, 100 * values[2], 1e3 * values[3],
+                       turns(at) ? "mrad" : "mm");
   };
   e.unsure = [](const Excitation& at) -> std::string {
     if (at.damping) return "";  // a speed passes all that are below it

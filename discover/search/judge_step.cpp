@@ -378,7 +378,7 @@ void judge(TriedEffect& tried, const CandidateModel& before, const std::vector<d
       leaves_more_than_noise(is, tried.outputs)) {
     tried.patch = true;
     tried.reason = fmt::format(
-        "a patch: it explains only {} of the error above the noise, and is the main cause in no kind of recording",
+        "not specific: it explains only {} of the error above the noise, and is the main cause in no kind of recording",
         percent(tried.share));
     return;
   }
@@ -392,9 +392,9 @@ void judge(TriedEffect& tried, const CandidateModel& before, const std::vector<d
     const double of_rest = was.noise_known ? rules::share_of_rest : rules::structure_share;
     if (tried.share < of_rest && !owns_an_excitation(was, is)) {
       tried.patch = true;
-      tried.reason =
-          fmt::format("a patch: it explains only {} of what is left, and is the main cause in no kind of recording",
-                      percent(tried.share));
+      tried.reason = fmt::format(
+          "not specific: it explains only {} of what is left, and is the main cause in no kind of recording",
+          percent(tried.share));
       return;
     }
   }

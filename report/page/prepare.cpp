@@ -13,7 +13,7 @@
 namespace hysteron {
 namespace {
 
-constexpr int palette_size = 8;
+constexpr int palette_size = 16;         // eight colours, the second time dashed
 constexpr std::size_t few_points = 150;  ///< drawn as larger dots
 
 /// Where the numbers of a curve stand.
@@ -49,7 +49,8 @@ std::vector<std::string> colours(const std::vector<Curve>& curves) {
                                                           {"after", "simulated"},   {"before", "before"},
                                                           {"residual", "residual"}, {"floor", "floor"}};
   // Palette entries that look like a role's colour are passed over while that role is in the figure.
-  static const std::map<std::string, std::string> twins{{"p0", "simulated"}, {"p1", "before"}, {"p3", "residual"}};
+  static const std::map<std::string, std::string> twins{{"p0", "simulated"}, {"p1", "before"}, {"p3", "residual"},
+                                                        {"p8", "simulated"}, {"p9", "before"}, {"p11", "residual"}};
   std::set<std::string> used;
   for (const auto& c : curves)
     if (const auto found = of_role.find(c.role); found != of_role.end()) used.insert(found->second);

@@ -13,7 +13,7 @@ struct PreparedCurve {
   std::string name;
   std::string style;  ///< "line", "points", "steps"
   std::string
-      colour;  ///< CSS class without its prefix: "measured", "simulated", "before", "residual", "floor", "p0" ... "p7"
+      colour;  ///< CSS class without its prefix: "measured", "simulated", "before", "residual", "floor", "p0" ... "p15"
   std::string source;        ///< "traces/01.csv", or ""
   std::vector<double> x, y;  ///< thinned out to the figure's budget
   std::size_t points = 0;    ///< before that

@@ -14,6 +14,7 @@
 #include "engine/diagram/index.h"
 #include "fit/model/noise.h"
 #include "fit/model/score.h"
+#include "fit/signals/unit_words.h"
 #include "report/pages/numbers.h"
 
 namespace hysteron {
@@ -128,8 +129,8 @@ void add_step_figure(Section& section, const Document& document, const Discovery
     const Beside view = stages.beside();
     figure.curves.push_back(residual_curve(table, residual_column(view, place.output, step), "before", "before"));
     figure.curves.push_back(residual_curve(table, residual_column(view, place.output, step + 1), "after", "after"));
-    figure.caption = fmt::format("The recording, not used for the fit, from which this step took most: {} -> {} rms.",
-                                 difference_text(place.rms_before, unit), difference_text(place.rms_after, unit));
+    figure.caption = fmt::format("The recording, not used for the fit, from which this step took most: {} rms.",
+                                 fall_text(place.rms_before, place.rms_after, unit));
     section.figures.push_back(std::move(figure));
     return;
   }

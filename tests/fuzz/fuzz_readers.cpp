@@ -148,6 +148,14 @@ std::vector<std::string> files_below(const std::string& folder, const std::funct
   return texts;
 }
 
+// A recording that stands beside what is tried, and a data set that is read to its end.
+constexpr char beside[] = "beside.csv";
+constexpr char recording_beside[] = "t [s],u [V],y [um]\n0,0,0\n1,1,2\n2,2,4\n3,1,2\n4,0,0\n5,1,2\n6,2,4\n7,1,2\n";
+constexpr char data_set_of_beside[] = R"({"format": 1, "title": "t",
+ "columns": {"u": {"between_samples": "hold"}, "y": {"to": "z", "noise": {"white": "2 nm"}, "zero": "per_recording"}},
+ "recordings": [{"file": "beside.csv", "role": "train", "until": "4 s", "skip": "1 s"},
+  {"file": "beside.csv", "role": "validate", "start": "1 s", "weight": 2}]})";
+
 std::vector<Format> all_formats() {
   std::vector<Format> formats;
   add_formats_of_instruments(formats);
@@ -156,8 +164,10 @@ std::vector<Format> all_formats() {
   };
   formats.push_back({"diagram", "x.json", files_below("diagrams", has("\"blocks\"")), words_of_json,
                      [](const std::string& file) { diagram_text(read_diagram(file)); }});
-  formats.push_back({"dataset", "x.json", files_below("diagrams", has("\"recordings\"")), words_of_json,
-                     [](const std::string& file) { read_dataset(file); }});
+  std::vector<std::string> data_sets = files_below("diagrams", has("\"recordings\""));
+  data_sets.push_back(data_set_of_beside);
+  formats.push_back(
+      {"dataset", "x.json", data_sets, words_of_json, [](const std::string& file) { read_dataset(file); }});
   formats.push_back({"runs", "x.json", files_below("diagrams", has("\"do\": \"runs\"")), words_of_json,
                      [](const std::string& file) { read_runs_job(file); }});
   formats.push_back({"study", "x.json", files_below("diagrams", has("\"do\": \"study\"")), words_of_json,
@@ -284,6 +294,7 @@ int run(int count, char** words) {
   const TemporaryFolder own;
   if (options.folder.empty()) options.folder = own.path();
   std::filesystem::create_directories(options.folder);
+  std::ofstream(options.folder + "/" + beside) << recording_beside;
   signal(SIGPROF, [](int) {
     [[maybe_unused]] const auto ignored = write(2, message_of_hang, std::char_traits<char>::length(message_of_hang));
     abort();

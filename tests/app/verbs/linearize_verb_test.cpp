@@ -113,6 +113,7 @@ TEST_F(LinearizeVerb, APlayInItsGapIsNamedAndTakenAboutAnAmplitudeOnRequest) {
     "y": {"type": "lag", "times": ["10 ms"], "in": "gap"}}, "outputs": {"y": "y"}})");
   const Outcome cut = run({"d.json"});
   EXPECT_TRUE(says(cut, "play \"gap\" passes no small motion on")) << cut.out;
+  EXPECT_EQ(cut.out.rfind("r does not move y at this operating point", 0), 0U) << cut.out;
   EXPECT_EQ(facts().at("cut_by"), json::array({"gap"}));
   const Outcome about = run({"d.json", "--amplitude", "gap=1 mm"});
   EXPECT_FALSE(says(about, "passes no small motion")) << about.out;

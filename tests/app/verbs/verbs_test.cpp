@@ -191,6 +191,19 @@ TEST_F(Verbs, RunRecordsTheSignalsThatTheCommandNames) {
   EXPECT_NE(outcome.err.find("Did you mean \"double\"?"), std::string::npos) << outcome.err;
 }
 
+TEST_F(Verbs, TheTitleOfAFigureNamesAVectorOnce) {
+  folder_.write("three.json", R"({"format": 1, "title": "Three", "blocks": {
+    "drive": {"type": "sine", "amplitude": "1 V", "frequency": "1 Hz"},
+    "all": {"type": "mux", "in": ["drive", "drive", "drive"]},
+    "twice": {"type": "gain", "gain": 2, "in": "all"}},
+    "record": ["all", "twice"], "simulate": {"until": "1 s", "every": "0.5 s"}})");
+  const Outcome outcome = hysteron(folder_.path(), {"run", "three.json", "-o", "out"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const std::string page = folder_.read("out/report.html");
+  EXPECT_NE(page.find(">all, twice<"), std::string::npos);
+  EXPECT_NE(page.find("twice[2]"), std::string::npos) << "the legend tells them apart";
+}
+
 TEST_F(Verbs, RunWritesTracesAsNumbersThatAreThoseOfTheText) {
   folder_.write("sine.json", sine);
   for (const char* form : {"csv", "f64"}) {

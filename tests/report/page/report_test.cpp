@@ -254,6 +254,22 @@ TEST(Report, GivesRolesTheirColoursAndOthersThePalette) {
   EXPECT_EQ(data[5]["curves"][1]["colour"], "p1");
 }
 
+TEST(Report, DashesCurvesWhoseColourComesASecondTime) {
+  Document d = example::discovery();
+  std::vector<Curve>* curves = nullptr;
+  for (auto& section : d.sections)
+    for (auto& figure : section.figures)
+      if (!figure.curves.empty() && curves == nullptr) curves = &figure.curves;
+  const Curve one = curves->front();
+  curves->assign(10, one);
+  for (auto& curve : *curves) curve.role = "";
+  const auto drawn = data_of(report_html(d))[0]["curves"];
+  ASSERT_EQ(drawn.size(), 10U);
+  EXPECT_EQ(drawn[7]["colour"], "p7");
+  EXPECT_EQ(drawn[8]["colour"], "p8");
+  EXPECT_EQ(drawn[9]["colour"], "p9");
+}
+
 TEST(Report, TellsCurvesOfOneRoleApart) {
   Document d;
   d.sections.resize(1);
