@@ -119,7 +119,7 @@ std::size_t AdvanceRows::lay_out_rows(const Schedule& schedule, std::size_t firs
 void AdvanceRows::fill_sources(const Schedule& schedule, std::size_t first, std::size_t points, int substeps) {
   for (std::size_t s = 0; s < plan_.series.size(); ++s) {
     const auto signal = at(plan_.block(plan_.series[s]).y_begin);
-    const auto& values = schedule.values[s];
+    const auto values = schedule.values[s];
     if (lanes_ == 1 && substeps == 1) {
       in_[signal] = values.data() + first;
       continue;
@@ -209,8 +209,9 @@ void AdvanceRows::pass_loop(AdvanceState& state, std::size_t lane, int loop, std
 
 void AdvanceRows::record(const Schedule& schedule, std::size_t first, std::size_t points,
                          std::span<Values* const> values) {
-  std::size_t end = next_instant_;
-  while (end < schedule.point.size() && schedule.point[end] < first + points) ++end;
+  const std::size_t instants = schedule.instants->size();
+  std::size_t end = schedule.one_to_one ? std::min(instants, first + points) : next_instant_;
+  while (end < instants && schedule.point_of(end) < first + points) ++end;
   const bool all = lanes_ == 1 && schedule.one_to_one && row_is_point_;
   for (std::size_t s = 0; s < plan_.signals.size(); ++s)
     for (std::size_t l = 0; l < values.size() && direct_[s] == 0; ++l) {
@@ -220,7 +221,7 @@ void AdvanceRows::record(const Schedule& schedule, std::size_t first, std::size_
         std::copy_n(rows, points, to + next_instant_);
       else
         for (std::size_t i = next_instant_; i < end; ++i) {
-          const std::size_t point = schedule.point[i] - first;
+          const std::size_t point = schedule.point_of(i) - first;
           to[i] = rows[(row_is_point_ ? point : row_[point]) * lanes_];
         }
     }
@@ -270,7 +271,7 @@ void AdvanceRows::operator()(std::span<AdvanceState* const> states, const Schedu
   begin(states, points_at_once * at(substeps));
   find_direct(schedule, substeps);
   next_instant_ = 0;
-  while (next_instant_ < schedule.point.size() && schedule.point[next_instant_] == 0) {
+  while (next_instant_ < schedule.instants->size() && schedule.point_of(next_instant_) == 0) {
     for (std::size_t s = 0; s < plan_.signals.size(); ++s)
       for (std::size_t l = 0; l < states.size(); ++l)
         (*values[l])[s][next_instant_] = states[l]->y[at(plan_.signals[s])];

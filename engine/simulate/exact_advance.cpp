@@ -104,10 +104,15 @@ bool advances_exactly(const Program& program, const SimulateOptions& options) {
 }
 
 std::optional<Traces> simulate_exactly(const Program& program, const Run& run, const SimulateOptions& options,
-                                       std::vector<double> instants, const std::vector<int>& signals) {
+                                       std::vector<double>& instants, const std::vector<int>& signals) {
   const bool early = instants.front() > options.begin;
-  if (early) instants.insert(instants.begin(), options.begin);
-  const auto rows = std::make_shared<const std::vector<double>>(instants);
+  const auto own_rows = std::make_shared<std::vector<double>>(std::move(instants));
+  if (early) own_rows->insert(own_rows->begin(), options.begin);
+  const Advance::Instants rows = own_rows;
+  const auto give_back = [&] {  // nobody asks the advance any more
+    instants = std::move(*own_rows);
+    if (early) instants.erase(instants.begin());
+  };
   // The advance keeps a pointer only while it is built and called; the program outlives both.
   Advance advance(ProgramPointer(ProgramPointer(), &program), signals);
   Traces traces;
@@ -117,7 +122,7 @@ std::optional<Traces> simulate_exactly(const Program& program, const Run& run, c
   const bool may_give_up = options.method == Method::automatic;
   const bool refines = !advance.exact_without_substeps();
   const auto can_be_finer = [&] {
-    const auto steps = static_cast<double>(instants.size()) * 2 * how.substeps;
+    const auto steps = static_cast<double>(rows->size()) * 2 * how.substeps;
     return refines && how.substeps < most_substeps && (!may_give_up || steps <= most_steps);
   };
   // Steps that are too long for nonlinear states let them run away: shorter ones may not. True: here are the values.
@@ -144,20 +149,21 @@ std::optional<Traces> simulate_exactly(const Program& program, const Run& run, c
     good = good_too;
     traces.values = std::move(finer);
   }
-  if (!same && may_give_up) return std::nullopt;
+  if (!same && may_give_up) {
+    give_back();
+    return std::nullopt;
+  }
   if (!same && advance.integrates())
     fail_numerics("not_fine_enough", "/simulate/solver",
                   fmt::format("rows split into {} steps do not give the nonlinear states to the tolerance asked for",
                               how.substeps),
                   "choose the method \"auto\" or \"bdf\", or more rows");
-  traces.statistics.steps = static_cast<long>(instants.size()) * how.substeps;
+  traces.statistics.steps = static_cast<long>(rows->size()) * how.substeps;
   traces.statistics.samples = advance.samples();
   add_slopes(program, run, options.slopes_for, advance, rows, how, traces);
-  if (early) {
-    instants.erase(instants.begin());
-    drop_first_row(traces);
-  }
-  check_finite(program, traces, instants);
+  give_back();
+  if (early) drop_first_row(traces);
+  if (!good) check_finite(program, traces, instants);  // else the advance has looked
   traces.t = std::move(instants);
   traces.statistics.method = "exact";
   return traces;
