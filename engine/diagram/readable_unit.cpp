@@ -38,9 +38,9 @@ ReadableUnit readable_unit(double number, std::string_view unit, double least) {
   if (own == nullptr) return as_it_is;
   const auto* const fits = std::find_if(
       own, std::end(prefixes), [&](const Prefix& p) { return size * own->times >= least_with_prefix * p.times; });
-  const Prefix& taken = fits != std::end(prefixes) ? *fits : *std::prev(std::end(prefixes));
-  return {own->times / taken.times,
-          std::string(taken.text) + std::string(head.substr(own->text.size())) + std::string(unit.substr(end))};
+  if (fits == std::end(prefixes)) return as_it_is;
+  return {own->times / fits->times,
+          std::string(fits->text) + std::string(head.substr(own->text.size())) + std::string(unit.substr(end))};
 }
 
 }  // namespace hysteron

@@ -34,7 +34,7 @@ void expect_the_answer(const json& all) {
 
 void expect_it_is_printed(const std::string& out) {
   EXPECT_NE(out.find("creep"), std::string::npos) << out;
-  EXPECT_NE(out.find("0.0612"), std::string::npos) << out;
+  EXPECT_NE(out.find("61.2 nm -> 0.23"), std::string::npos) << out;
   // The last words are the answer.
   EXPECT_NE(out.find("report: out/report.html\nMissing: creep. "), std::string::npos) << out;
 }

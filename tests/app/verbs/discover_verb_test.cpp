@@ -368,8 +368,8 @@ TEST_F(DiscoverVerb, DiscoverGivesEachOutputInItsOwnUnit) {
   EXPECT_GT(of["s"]["rms"].get<double>(), 0.1);
   for (const auto& r : last["recordings"]) EXPECT_EQ(r["unit"], r["output"] == "s" ? "mm/s" : "um") << r;
   const std::string headline = all["headline"];
-  EXPECT_NE(headline.find(" um, s: "), std::string::npos) << headline;
-  EXPECT_NE(headline.find(" mm/s)."), std::string::npos) << headline;
+  EXPECT_NE(headline.find(" nm, s: "), std::string::npos) << headline;
+  EXPECT_NE(headline.find(" um/s)."), std::string::npos) << headline;
   EXPECT_EQ(headline.find("(0 um"), std::string::npos) << headline;
 }
 
