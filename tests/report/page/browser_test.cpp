@@ -44,8 +44,8 @@ TEST_F(Browser, DrawsEveryFigureWithoutAnError) {
 }
 
 /// The page with a driver that acts as a reader would and notes on <body> what it found.
-std::string driven(const std::string& actions) {
-  std::string page = report_html(example::discovery());
+std::string driven(const std::string& actions, const Document& document = example::discovery()) {
+  std::string page = report_html(document);
   const auto policy = page.find("<meta http-equiv=\"Content-Security-Policy\"");
   page.erase(policy, page.find('>', policy) + 1 - policy);
   const std::string driver = R"(<script>
@@ -134,6 +134,34 @@ TEST_F(Browser, ReadsValuesWithTheirUnits) {
   EXPECT_TRUE(loop.starts_with("u ")) << loop;
   EXPECT_NE(loop.find(" V "), std::string::npos) << loop;
   EXPECT_TRUE(loop.ends_with(" um")) << loop;
+}
+
+/// A table of ten columns, two of them of words, as the log of a discovery has it.
+Table wide_table() {
+  Table table;
+  for (int i = 0; i < 10; ++i) table.columns.push_back("error, column " + std::to_string(i));
+  std::vector<std::string> row(table.columns.size(), "0.000234 um (0.012 %)");
+  row[0] = row[1] = "logarithmic creep of the stack behind its amplifier, from a hold of 60 s";
+  table.rows = {row, row, row};
+  return table;
+}
+
+TEST_F(Browser, PrintsATableOfManyColumnsWithinAPageOfA4) {
+  Document document = example::discovery();
+  document.sections.emplace_back().tables = {wide_table()};
+  // A page of A4 less its margins of 14 mm is 182 mm = 688 px wide; the rules for paper are made to hold on the screen.
+  const std::string dom = dom_of(driven(R"(
+    for (const sheet of document.styleSheets)
+      for (const rule of sheet.cssRules)
+        if (rule instanceof CSSMediaRule && rule.conditionText === 'print') rule.media.mediaText = 'all';
+    document.body.style.width = '688px';
+    const tables = [...document.querySelectorAll('.table table')];
+    note('tables', tables.some((t) => t.rows[0].cells.length === 10));
+    note('widest', Math.max(...tables.map((t) => Math.ceil(t.getBoundingClientRect().right - document.body.getBoundingClientRect().left))));
+  )",
+                                        document));
+  EXPECT_EQ(noted(dom, "tables"), "true");
+  EXPECT_LE(number_behind(dom, "data-widest=\""), 688);
 }
 
 TEST_F(Browser, HidesACurveByItsLegend) {

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "report/page/assets.h"
 #include "report/page/figure_file.h"
 #include "tests/io/results/example.h"
 #include "tests/report/page/count.h"
@@ -102,6 +103,33 @@ TEST(Report, ColoursALoopByTimeFromTheFirstShadeToTheLast) {
   EXPECT_EQ(data.at(1)["curves"][0]["shade"].front(), 0);
   EXPECT_EQ(data.at(1)["curves"][0]["shade"].back(), 1);
   EXPECT_FALSE(data.at(0)["curves"][0].contains("shade"));
+}
+
+/// Relative luminance of a colour "#rrggbb", 0 (black) to 1 (white). Source: WCAG 2.1, "relative luminance".
+double luminance(const std::string& colour) {
+  double sum = 0;
+  const double weights[] = {0.2126, 0.7152, 0.0722};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double c = std::stoi(colour.substr(1 + 2 * i, 2), nullptr, 16) / 255.0;
+    sum += weights[i] * (c <= 0.03928 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
+  }
+  return sum;
+}
+
+TEST(Report, ShowsEveryCurveAndBarInTheDark) {
+  const std::string css(report_css);
+  const auto begin = css.find("@media (prefers-color-scheme: dark)"), end = css.find("@media print");
+  ASSERT_LT(begin, end);
+  const std::string dark = css.substr(begin, end - begin);
+  const auto colour = [&](const std::string& name) {
+    return dark.substr(dark.find("--" + name + ": #") + name.size() + 4, 7);
+  };
+  std::vector<std::string> names = {"measured", "simulated", "before", "residual", "floor", "step"};
+  for (int i = 0; i < 12; ++i) names.push_back("t" + std::to_string(i));
+  for (int i = 0; i < 8; ++i) names.push_back("p" + std::to_string(i));
+  // WCAG 2.1, 1.4.11: what must be seen in a picture has at least three times the light of what is behind it.
+  for (const auto& name : names)
+    EXPECT_GE((luminance(colour(name)) + 0.05) / (luminance(colour("paper")) + 0.05), 3) << name << " " << colour(name);
 }
 
 TEST(Report, DrawsAPartOfALongCurveFromAllItsPoints) {
