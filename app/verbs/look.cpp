@@ -26,6 +26,7 @@
 #include "report/pages/discover_facts.h"
 #include "report/pages/discover_page.h"
 #include "report/pages/drive_file.h"
+#include "report/pages/model_table.h"
 
 namespace hysteron {
 namespace {
@@ -158,6 +159,7 @@ Wish read_wish(const Arguments& arguments, const Watch& watch) {
   settings.only = wanted_effects(arguments, wish.effects);
   settings.free_paths = arguments.list("--free");
   settings.numbers_are_exact = arguments.has("--exact");
+  settings.keeps_table = arguments.has("--keep-table");
   settings.max_steps = arguments.whole_number("--steps", settings.max_steps, 20);
   settings.threads = arguments.threads();
   wish.diagram = load_diagram(arguments, watch);
@@ -170,6 +172,10 @@ Wish read_wish(const Arguments& arguments, const Watch& watch) {
   if (wish.by_models && wish.is_check)
     fail("bad_command_line", "--search", "--check asks by steps: it holds all numbers of the model",
          "leave out --search, or --check");
+  if (settings.keeps_table && !wish.by_models)
+    fail("bad_command_line", "--keep-table", "a search by steps has no table of models", "leave it out");
+  if (settings.keeps_table)
+    need_ending("--keep-table", arguments.text("--keep-table"), {".json"}, "a JSON file, e.g. --keep-table table.json");
   wish.given = load_data(arguments, *program);
   need_moving_outputs(wish.given, *program);
   wish.within = std::chrono::duration<double>(arguments.seconds("--within", std::numeric_limits<double>::infinity()));
@@ -243,6 +249,7 @@ Answer look(const std::string& verb, const Arguments& arguments, const Watch& wa
   const auto inspected = inspected_against(found.base_diagram, data, wish.effects, wish.settings.free_paths,
                                            stopped || found.broken_off, watch);
   Answer answer;
+  if (arguments.has("--keep-table")) answer.files.push_back({arguments.text("--keep-table"), model_table_text(found)});
   answer.folder = result_folder(arguments, verb);
   Document& document = answer.document;
   document = discovery_document(verb, found, data, registry(), inspected.value_or(Inspected{}),
@@ -306,6 +313,7 @@ std::vector<OptionSpec> look_options() {
           {"--within", "TIME", "end after so long with what was found by then, e.g. \"2 min\"", false, false},
           {"--experiment", "FILE.csv",
            "write the experiment that is asked for, if any, as rows for a generator or controller", false, false},
+          {"--keep-table", "FILE.json", "write all models that were fitted, for scores of your own", false, false},
           options::output_folder(),
           options::set(),
           options::choose(),

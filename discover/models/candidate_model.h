@@ -70,6 +70,8 @@ constexpr double nominal_uncertainty = 0.03, at_most_off = 0.15;
 struct KnownTo {
   double width = nominal_uncertainty;  ///< 95 % are nearer to one than this
   double least = 1 - at_most_off, most = 1 + at_most_off;
+  /// Numbers that are known so many times better (below one) or worse than others, by path.
+  std::map<std::string, double> times{};
 };
 
 /// What every fit of a discovery shares.

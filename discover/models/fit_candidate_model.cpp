@@ -48,8 +48,11 @@ bool is_known_line(const FitContext& context, const CandidateModel& c, const Pla
 void know_roughly(const FitContext& context, const Program& program, FreeParameter& f) {
   const auto n = context.roughly.find(program.parameters[static_cast<std::size_t>(f.parameter)].path);
   if (n == context.roughly.end()) return;
-  const double written = n->second, width = context.known_to.width * std::abs(written);
-  const auto [low, high] = std::minmax({context.known_to.least * written, context.known_to.most * written});
+  const auto otherwise = context.known_to.times.find(n->first);
+  const double times = otherwise == context.known_to.times.end() ? 1 : otherwise->second;
+  const double written = n->second, width = times * context.known_to.width * std::abs(written);
+  const auto [low, high] = std::minmax(
+      {std::pow(context.known_to.least, times) * written, std::pow(context.known_to.most, times) * written});
   f.prior = {written - width, written + width};
   f.lower = std::max(f.lower, low);
   f.upper = std::min(f.upper, high);

@@ -228,6 +228,15 @@ OfBase structure_of_base(SearchState& state, const Left& left) {
   return {};
 }
 
+/// By the score of whole models.
+OfBase ahead_by_score(SearchState& state) {
+  if (!state.ahead_of_effects) return {};
+  const auto& [search, by] = *state.ahead_of_effects;
+  keep_structures(state.d, {search, Where::all_recordings, {}}, LeftBy::base,
+                  fmt::format("its score is {:.0f} above that of the effects that were found", by));
+  return {*search.winner(), true};
+}
+
 /// What stands out of what the effects leave.
 void structure_behind_effects(SearchState& state) {
   JudgedSearch rest{
@@ -258,9 +267,9 @@ void conclude(SearchState& state) {
     unless_it_fails(state, [&] { return leave_out_idle(state), true; });
   }
   const double floor = state.current.error_of.over_floor();
-  const bool is_settled = state.by_score && !state.d.steps.empty();  // no structure outdoes what a score has claimed
+  const bool is_settled = state.by_score && !state.d.steps.empty();  // by the score: see structure_term.h
   const Left left = is_settled ? Left{} : left_by_base(state);
-  const OfBase of_base = is_settled ? OfBase{} : structure_of_base(state, left);
+  const OfBase of_base = is_settled ? ahead_by_score(state) : structure_of_base(state, left);
   state.d.structure = of_base.told;
   if (of_base.in_place_of_effects) {
     state.d.verdict = Verdict::unexplained;

@@ -128,13 +128,36 @@ struct OtherNumber {
 
 /// How large an effect can be that was looked for and not found, at the place where the recordings allow most of it.
 struct EffectLimit {
-  std::string effect, title, place, law;
+  std::string effect, place, law;
   std::string parameter;  ///< of that law: "gap"; of several the first
   Unit unit;
   bool difference = false;
   double value = 0;     ///< of the parameter: at most so much, in 95 of 100 cases [SI]
   std::string at_most;  ///< what the law says there
   double sizes = 0;     ///< the same, in sizes with which the law begins
+};
+
+/// What a model of a search by models leaves of one column of one recording, as its score reads it (block_score.h).
+struct LeftOfColumn {
+  std::string recording, output;
+  std::size_t rows = 0;
+  double scatter = 0;           ///< [SI squared]
+  double correlation = 1;       ///< [rows]
+  double stated_variance = 0;   ///< of the noise, where the data set says it [SI squared]
+  double least_variance = 0;    ///< no instrument is better [SI squared]
+  std::vector<double> squares;  ///< sums over as many pieces of equal length [SI squared]
+};
+
+/// A row of the table of models that were fitted: all that a score needs, so that others can be tried on it.
+struct FittedModel {
+  int step = 1;                    ///< of whose round
+  std::string effect, place, law;  ///< that it adds to what stood; empty: what stood
+  bool numbers_let_go = false;
+  bool chosen = false;
+  int parameters = 0;
+  double ln_tried = 0;  ///< of all that stands
+  double moved = 0;     ///< squares of the user's numbers over what is known of them
+  std::vector<LeftOfColumn> left;
 };
 
 /// Everything that was found.
@@ -162,6 +185,7 @@ struct Discovery {
   std::vector<OtherNumber> other_numbers;  ///< the furthest from what is written first; all figures are with these
   std::vector<std::string> found_starts;  ///< recordings that do not begin at rest, by name; all figures are with these
   std::vector<EffectLimit> limits;        ///< of what was not found, where only noise is left
+  std::vector<FittedModel> table;         ///< where DiscoverOptions::keeps_table asks for it
   Diagram base_diagram, final_diagram;
   ModelError final_error;
   Prediction final_prediction;  ///< of the final model on train and validate recordings, with what is found in each
@@ -178,6 +202,7 @@ struct DiscoverOptions {
   /// Candidates are simulated so many times looser (tighter below one) than usual: no answer may hang on it.
   double looser = 1;
   std::function<void(const std::string& what, double done)> progress;  ///< done in 0..1, rough
+  bool keeps_table = false;  ///< see Discovery::table; of a search by models only
   /// Asked often, by any thread, once the user's model is simulated; true = end with what was found so far, at once. A
   /// further effect is claimed only where all that could be it were asked.
   std::function<bool()> stop;

@@ -175,7 +175,8 @@ std::map<std::string, double> held_numbers(const SearchState& state) {
     const bool is_free = std::any_of(free.begin(), free.end(),
                                      [&](const FreeParameter& f) { return f.parameter == static_cast<int>(i); });
     const bool from_elsewhere = p.offset || (!p.difference && p.unit.to_si(0) != 0);  // a zero, a temperature
-    if (is_free || p.value == 0 || p.block < 0 || from_elsewhere || !is_measured(state, p.block)) continue;
+    const bool is_exact = p.known_to && *p.known_to == 0;
+    if (is_free || is_exact || p.value == 0 || p.block < 0 || from_elsewhere || !is_measured(state, p.block)) continue;
     const auto& block = program.blocks[static_cast<std::size_t>(p.block)];
     const Declaration& d = block.kernel->declaration;
     if (d.inputs.empty()) continue;

@@ -12,6 +12,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "discover/experiment/experiment.h"
@@ -55,8 +56,10 @@ struct SearchState {
   std::vector<Resonance> own_resonances;  ///< of the base
   std::vector<TriedEffect> hidden;        ///< of the present step: cannot be seen here, may have acted all the same
   Prediction before_prediction;           ///< of the model before the present step; empty = the base
-  bool by_score = false;  ///< effects were claimed by a score of whole models: no structure outdoes them
-  bool closing = false;   ///< what was found is looked at for the last time
+  bool by_score = false;                  ///< effects are claimed by a score of whole models
+  /// By that score ahead of all effects: structures that were looked for, and by how much the best one is.
+  std::optional<std::pair<StructureSearch, double>> ahead_of_effects;
+  bool closing = false;  ///< what was found is looked at for the last time
   Discovery d;
 
  private:

@@ -53,14 +53,13 @@ std::vector<double> variance_shown(const Evidence& evidence, const LeftSums& lef
   return variance;
 }
 
-/// No instrument is better than rounding lets it be, and no logarithm is taken of zero [SI squared].
-double floor_of(const Evidence& evidence, int output) {
+}  // namespace
+
+double least_variance(const Evidence& evidence, int output) {
   const auto& noise = evidence.noise().outputs[static_cast<std::size_t>(output)];
   const double least = noise_floor(evidence.model(), output, noise.resolution);
   return least * least;
 }
-
-}  // namespace
 
 double PieceSums::all() const { return std::accumulate(squares.begin(), squares.end(), 0.0); }
 
@@ -115,7 +114,7 @@ BlockScore::BlockScore(const Evidence& evidence, const std::vector<LeftSums>& mo
   for (std::size_t o = 0; o < s2.size(); ++o) {
     const auto& noise = evidence.noise().outputs[o];
     if (noise.white_is_stated()) s2[o] = noise.white * noise.white;
-    s2[o] = std::max(s2[o], floor_of(evidence, static_cast<int>(o)));
+    s2[o] = std::max(s2[o], least_variance(evidence, static_cast<int>(o)));
   }
   for (std::size_t k = 0; k < least.size(); ++k) {
     const auto& l = least[k];

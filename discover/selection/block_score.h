@@ -46,6 +46,9 @@ LeftSums left_sums(const std::vector<LeftRows>& left);
 /// one.
 double correlation_rows(const Rows& rows);
 
+/// No instrument is better than rounding lets it be, and no logarithm is taken of zero [SI squared].
+double least_variance(const Evidence& evidence, int output);
+
 /// By which all models of one data set are measured.
 class BlockScore {
  public:

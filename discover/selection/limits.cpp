@@ -23,14 +23,15 @@ constexpr int most_looks = 6;
 
 using Column = std::vector<double>;  ///< whitened rows of all recordings, one behind the other
 
-/// A model of the recordings, seen through the weights of the score.
+/// A model of the recordings, seen through the weights of the score. Rows are multiplied by `scale`.
 class Seen {
  public:
-  Seen(const FitContext& context, const CandidateModel& of, const Diagram& diagram)
+  Seen(const FitContext& context, const CandidateModel& of, const Diagram& diagram, double scale)
       : model_(compile(diagram, *context.registry), context.data,
                accuracy(context, *compile(diagram, *context.registry), Effort::full)),
         judge_(model_, noise_of(context, model_)),
-        recordings_(train_and_validate(*context.data)) {
+        recordings_(train_and_validate(*context.data)),
+        scale_(scale) {
     begin_as_found(of, model_);
     for (const auto& v : of.of_recordings)
       if (const auto* info = program().find_parameter(v.path); info != nullptr)
@@ -47,8 +48,7 @@ class Seen {
     if (!p.ok) return std::nullopt;
     Column rows;
     for (const int r : recordings_) {
-      const auto some = judge_.residual(model_, p, r);
-      rows.insert(rows.end(), some.begin(), some.end());
+      for (const double v : judge_.residual(model_, p, r)) rows.push_back(scale_ * v);
     }
     return rows;
   }
@@ -57,6 +57,7 @@ class Seen {
   DataModel model_;
   Judge judge_;
   std::vector<int> recordings_;
+  double scale_;
   Trial fixed_;
 };
 
@@ -113,8 +114,9 @@ class Limits {
         selected_(selection.best()),
         context_(context_for(selection.setting(), state.context, weights_of(selection.setting(), selected_),
                              Numbers::written)),
-        base_(context_, selected_.model, selected_.model.diagram),
-        numbers_(selection.setting().numbers) {
+        scale_(scale_to_noise(selection)),
+        base_(context_, selected_.model, selected_.model.diagram, scale_),
+        setting_(selection.setting()) {
     if (auto left = base_.left({})) left_ = std::move(*left);
     if (!left_.empty()) look_beside();
   }
@@ -125,10 +127,10 @@ class Limits {
     const auto first = std::find_if(law.free.begin(), law.free.end(), [](const auto& p) { return p.is_size; });
     if (left_.empty() || first == law.free.end()) return std::nullopt;
     const Added added = add_effect(selected_.model.diagram, state_.registry, *t.effect, law, t.place);
-    Seen with(context_, selected_.model, added.diagram);
+    Seen with(context_, selected_.model, added.diagram, scale_);
     const auto sizes = sizes_of(t, law, with, added.name);
     if (!sizes) return std::nullopt;
-    EffectLimit limit{t.effect->id, t.effect->title, t.place.where(), law.name, first->path, {}, false, 0, {}, *sizes};
+    EffectLimit limit{t.effect->id, t.place.where(), law.name, first->path, {}, false, 0, {}, *sizes};
     const ParameterInfo* info = with.program().find_parameter(parameter_path(added.name, law, *first));
     limit.unit = parameter_unit(with.program(), *info);
     limit.difference = info->difference;
@@ -138,7 +140,15 @@ class Limits {
   }
 
  private:
-  /// In sizes with which the law begins.
+  /// The score weighs rows by 1/(s^2 + V), which is half of what noise alone would weigh where only noise is left. By
+  /// this factor witnesses have the variance one that they show.
+  double scale_to_noise(const Selection& selection) const {
+    Seen seen(context_, selected_.model, selected_.model.diagram, 1);
+    const auto left = seen.left({});
+    const double chi2 = left ? dot(*left, *left) : 0;
+    return chi2 > 0 ? std::sqrt(selection.score().n_eff() / chi2) : 1;
+  }
+  /// In sizes with which the law begins; nothing where no size is the limit that it gives itself.
   std::optional<double> sizes_of(const TriedEffect& t, const Law& law, Seen& with, const std::string& name) {
     const double most = most_of(law);
     double size = 1;
@@ -159,7 +169,7 @@ class Limits {
       if (std::abs(limit - size) <= agrees * limit) return limit;
       size = limit;
     }
-    return size;
+    return std::nullopt;
   }
 
   /// What the law says at so many sizes.
@@ -200,7 +210,7 @@ class Limits {
     const auto moved = base_.left({{index, info->value + by, -1}});
     if (!moved) return;
     Beside b{per_unit(left_, *moved, by)};
-    if (written != 0) b.known = 1 / std::pow(known_to * written, 2), b.off = info->value - written;
+    if (written != 0) b.known = 1 / std::pow(setting_.known_to(path) * written, 2), b.off = info->value - written;
     list.push_back(std::move(b));
   }
   /// A number of the law that makes up for its size.
@@ -217,7 +227,7 @@ class Limits {
   /// The user's numbers, what the diagram leaves free, and the laws that stand.
   void look_beside() {
     std::set<std::string> done;
-    for (const auto& [path, written] : numbers_)
+    for (const auto& [path, written] : setting_.numbers)
       if (done.insert(path).second) add(beside_, path, 0, written);
     for (const auto& f : free_parameters(base_.program(), state_.options.free_paths)) {
       const auto& path = base_.program().parameters[static_cast<std::size_t>(f.parameter)].path;
@@ -232,8 +242,9 @@ class Limits {
   SearchState& state_;
   const TableModel& selected_;
   const FitContext context_;
+  const double scale_;
   Seen base_;
-  const std::map<std::string, double>& numbers_;
+  const FitSetting& setting_;
   Column left_;
   std::vector<Beside> beside_;
 };

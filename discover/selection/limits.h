@@ -11,9 +11,9 @@ namespace hysteron {
 /// else the law has stays where it starts.
 ///
 /// With r what the model leaves, weighed as the score does, and d what one size takes away, r = a d + J b + noise of
-/// variance one: b are the user's numbers, each known to 10 %, what is free in the diagram and the laws that stand, and
-/// what else makes up for the effect. The limit is |a| + 1.645 sigma(a), with no less than 0 for what cannot be
-/// negative; d is what the effect does at that size, until both agree.
+/// variance one: b are the user's numbers, each known to 10 % or to what the diagram says, what is free in the diagram
+/// and the laws that stand, and what else makes up for the effect. The limit is |a| + 1.645 sigma(a), with no less than
+/// 0 for what cannot be negative; d is what the effect does at that size, until both agree.
 ///
 /// Nothing where more than noise is left: what is missing there may be any of them.
 void tell_limits(SearchState& state, const Selection& selection, Discovery& d);

@@ -11,8 +11,10 @@
 
 #include "discover/search/between_samples.h"
 #include "discover/selection/first_part.h"
+#include "discover/selection/kept_table.h"
 #include "discover/selection/limits.h"
 #include "discover/selection/selection.h"
+#include "discover/selection/structure_term.h"
 #include "engine/diagram/stop.h"
 
 namespace hysteron {
@@ -207,11 +209,11 @@ void tell_candidates(SearchState& state, const Search& searched, const Told& tol
   }
 }
 
-void tell_numbers(SearchState& state, const Told& told) {
+void tell_numbers(SearchState& state, const FitSetting& setting, const Told& told) {
   const FitResult& fit = told.chain.back().fit;
   for (const auto& e : fit.estimates)
     if (const auto n = told.kept.find(e.path);
-        n != told.kept.end() && std::abs(e.used / n->second - 1) > as_written * known_to)
+        n != told.kept.end() && std::abs(e.used / n->second - 1) > as_written * setting.known_to(e.path))
       state.d.other_numbers.push_back({e.path, e.unit, e.difference, n->second, e.used, sigma_by_witnesses(fit, e)});
   std::stable_sort(state.d.other_numbers.begin(), state.d.other_numbers.end(), [](const auto& a, const auto& b) {
     return std::abs(a.found / a.written - 1) > std::abs(b.found / b.written - 1);
@@ -286,11 +288,17 @@ Discovery tell(std::unique_ptr<Search> searched, std::unique_ptr<Search> elsewhe
     state.settle(state.current);
     state.d.base_diagram = state.base.diagram;
     tell_candidates(state, *searched, *told);
-    tell_numbers(state, *told);
+    tell_numbers(state, searched->selection->setting(), *told);
   }
+  if (!state.d.steps.empty())
+    state.unless_stopped([&] {
+      if (auto ahead = structure_ahead(searched->state, *searched->selection))
+        state.ahead_of_effects.emplace(std::move(ahead->search), ahead->by);
+    });
   tell_ways_between(state, *searched);
-  tell_limits(searched->state, *searched->selection, state.d);
+  if (!state.ahead_of_effects) tell_limits(searched->state, *searched->selection, state.d);
   tell_starts(state, searched->moving);
+  if (state.options.keeps_table) state.d.table = table_of(searched->state, *searched->selection);
   state.d.model_runs = searched->state.context.derivatives->runs();
   if (elsewhere) {  // long recordings: what is not needed any more goes
     state.d.model_runs += state.context.derivatives->runs();

@@ -134,6 +134,11 @@ void Selection::remember(const TableModel& fitted) {
   if (fitted.ok()) left_.push_back(fitted.left);
 }
 
+void Selection::count_in(const LeftSums& left) {
+  left_.push_back(left);
+  measure();
+}
+
 /// The better of the fits of each rival, and its law. The table of all models grows first: by that they are compared.
 void Selection::take_up(std::vector<Addition>& rivals, std::vector<FitsOfRival> answers) {
   for (const auto& list : answers)

@@ -47,6 +47,8 @@ class Selection {
   const BlockScore& score() const { return *setting_.score; }
   const FitSetting& setting() const { return setting_; }
   double score_of(const TableModel& f) const { return hysteron::score_of(score(), f); }
+  /// What something else leaves that competes with these models: noise is no larger than what it shows.
+  void count_in(const LeftSums& left);
   /// One term of the best model (see terms_of) and what looks like it in its place, each last in its model and fitted
   /// with the rest; that term first, the others by their score. Among them, as `hidden`, what these recordings cannot
   /// show and may have acted all the same: a gain that follows a temperature, at one temperature.

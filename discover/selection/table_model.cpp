@@ -68,6 +68,13 @@ FitSetting::FitSetting(const SearchState& of, std::map<std::string, double> let_
   for (auto& r : data.recordings)
     if (r.role == Role::validate) r.role = Role::train;
   all = std::make_shared<const DataSet>(std::move(data));
+  for (const auto& p : of.base_model->program().parameters)
+    if (p.known_to && *p.known_to > 0) known[p.path] = *p.known_to;
+}
+
+double FitSetting::known_to(const std::string& path) const {
+  const auto said = known.find(path);
+  return said == known.end() ? usually_known_to : said->second;
 }
 
 FitSetting FitSetting::with(std::map<std::string, double> other_numbers) const {
@@ -98,7 +105,7 @@ TableModel measured(const FitSetting& setting, CandidateModel model, Numbers num
   f.parameters = numbers_of(f.model, evidence.recordings().size());
   for (const auto& e : f.model.fit.estimates)
     if (const auto n = setting.numbers.find(e.path); n != setting.numbers.end())
-      f.moved += std::pow((e.used - n->second) / (known_to * n->second), 2);
+      f.moved += std::pow((e.used - n->second) / (setting.known_to(e.path) * n->second), 2);
   return f;
 }
 
@@ -118,7 +125,8 @@ FitContext context_for(const FitSetting& setting, const FitContext& context, con
   own.simulation_steps /= 4;
   own.bdf_otherwise = false;
   if (numbers == Numbers::written) return own;
-  own.known_to = {two_sided * known_to, 0.5, 2};
+  own.known_to = {two_sided * usually_known_to, 0.5, 2};
+  for (const auto& [path, known] : setting.known) own.known_to.times[path] = known / usually_known_to;
   own.free_nominal_parameters(setting.numbers);
   return own;
 }

@@ -33,9 +33,12 @@ struct TableModel {
 struct FitSetting {
   FitSetting(const SearchState& state, std::map<std::string, double> numbers);
   FitSetting with(std::map<std::string, double> other_numbers) const;
+  /// One standard deviation of the logarithm of what is written there.
+  double known_to(const std::string& path) const;
 
   const SearchState& state;
   std::map<std::string, double> numbers;  ///< that may be let go, as written [SI]
+  std::map<std::string, double> known;    ///< of these, how well, where the diagram says it
   /// The data set with all recordings to fit to: what acts in one recording only is found wherever that stands, and a
   /// score that pays for each number needs none that were not seen. What is told at the end is fitted to those meant
   /// for it.
@@ -45,7 +48,7 @@ struct FitSetting {
 };
 
 /// One standard deviation of the logarithm of what a user writes, where nothing is said of it: 10 %.
-inline constexpr double known_to = 0.1;
+inline constexpr double usually_known_to = 0.1;
 
 /// Weights of one model are renewed at most so often: each time from where it came to.
 inline constexpr int most_renewals = 12;

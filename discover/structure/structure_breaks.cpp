@@ -193,21 +193,22 @@ double one_passing(const ResidualParts& parts, std::size_t level, double at) {
 
 }  // namespace
 
+std::vector<Rows> step_and_slope(const Rows& x, double at) {
+  Rows step(x.size()), slope(x.size());
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    step[k] = x[k] > at ? 1.0 : 0.0;
+    slope[k] = std::max(x[k] - at, 0.0);
+  }
+  return {std::move(step), std::move(slope)};
+}
+
 std::optional<Structure> kink_at_level(const ResidualParts& parts, std::size_t level) {
   const Level& over = parts.levels()[level];
   const auto line = parts.whitened([&](const Part& p) {
     return std::vector<Rows>{Rows(p.levels[level].size(), 1.0), p.levels[level]};
   });
   const auto falls_at = [&](double at) {
-    const auto kink = [&](const Part& p) {
-      const Rows& x = p.levels[level];
-      Rows step(x.size()), slope(x.size());
-      for (std::size_t k = 0; k < x.size(); ++k) {
-        step[k] = x[k] > at ? 1.0 : 0.0;
-        slope[k] = std::max(x[k] - at, 0.0);
-      }
-      return std::vector<Rows>{std::move(step), std::move(slope)};
-    };
+    const auto kink = [&](const Part& p) { return step_and_slope(p.levels[level], at); };
     return parts.judged(kink, line);
   };
   // Where it is, all recordings say: it is one number.

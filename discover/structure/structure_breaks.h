@@ -19,4 +19,7 @@ std::optional<Structure> jumps(const ResidualParts& parts);
 /// they cost one number per row.
 std::optional<Structure> bursts(const ResidualParts& parts);
 
+/// One above `at` and zero below; what x is above it.
+std::vector<Rows> step_and_slope(const Rows& x, double at);
+
 }  // namespace hysteron

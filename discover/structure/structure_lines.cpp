@@ -15,16 +15,6 @@ namespace {
 
 using Part = ResidualPart;
 
-/// Cosine and sine of wave number k [1/unit of x] along x.
-std::vector<Rows> wave(const Rows& x, double origin, double k) {
-  Rows c(x.size()), s(x.size());
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    c[i] = std::cos(k * (x[i] - origin));
-    s[i] = std::sin(k * (x[i] - origin));
-  }
-  return {c, s};
-}
-
 /// Fall of chi2 by a line of frequency f [Hz] in the recordings that can show it: not above the rows, one period at
 /// least.
 ByRole line_fall(const ResidualParts& parts, double f) {
@@ -153,6 +143,15 @@ std::vector<Peak> highest(std::vector<Peak> all, double apart, std::size_t most)
 }
 
 }  // namespace
+
+std::vector<Rows> wave(const Rows& x, double origin, double k) {
+  Rows c(x.size()), s(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    c[i] = std::cos(k * (x[i] - origin));
+    s[i] = std::sin(k * (x[i] - origin));
+  }
+  return {c, s};
+}
 
 std::vector<double> strongest_lines(const ResidualParts& parts, const std::vector<std::pair<double, double>>& bands,
                                     std::size_t most) {

@@ -26,4 +26,7 @@ std::vector<double> strongest_ripples(const ResidualParts& parts, std::size_t le
 /// Fringes, gear teeth: a ripple over a level, one shape for all recordings, 3 to 130 periods over the range.
 std::optional<Structure> line_in_level(const ResidualParts& parts, std::size_t level);
 
+/// Cosine and sine of wave number k [rad per unit of x] along x.
+std::vector<Rows> wave(const Rows& x, double origin, double k);
+
 }  // namespace hysteron

@@ -202,6 +202,7 @@ class ParameterTable {
       info.linear = p.is_linear;
       info.offset = p.is_offset;
       info.origin = number.origin;
+      info.known_to = number.known_to;
       declared_.push_back(&p);
       program_.parameter_names[path] = program_.parameter_names[own] = static_cast<int>(program_.parameters.size());
       program_.parameters.push_back(std::move(info));

@@ -18,6 +18,7 @@ struct ResolvedNumber {
   bool has_unit = false;
   std::string parameter{};  ///< name of the diagram parameter that it came from ("" = written at the block)
   std::string origin{};
+  std::optional<double> known_to{};  ///< see Value
 };
 
 struct ResolvedParameter {

@@ -87,11 +87,11 @@ class Resolver {
       return from_matrix(p, value, name);
     if (const auto* number = std::get_if<Number>(&value.content)) {
       if (p.kind == ParameterKind::list) result.list = true;
-      result.numbers.push_back(resolve(p, *number, name, value.origin));
+      result.numbers.push_back(resolve(p, *number, name, value));
       return result;
     }
     if (const auto* list = std::get_if<NumberList>(&value.content); list != nullptr && p.kind == ParameterKind::list) {
-      for (const auto& number : *list) result.numbers.push_back(resolve(p, number, name, value.origin));
+      for (const auto& number : *list) result.numbers.push_back(resolve(p, number, name, value));
       if (list->empty())
         problems_.add("wrong_type", place(p.name), fmt::format("\"{}\" is an empty list", p.name),
                       "give at least one number");
@@ -129,7 +129,7 @@ class Resolver {
             fmt::format("row {} of \"{}\" has {} numbers, the first has {}", r + 1, p.name, row.size(), columns),
             "give all rows the same length");
       for (std::size_t c = 0; c < columns; ++c)
-        result.numbers.push_back(c < row.size() ? resolve(p, row[c], name, value.origin) : ResolvedNumber{});
+        result.numbers.push_back(c < row.size() ? resolve(p, row[c], name, value) : ResolvedNumber{});
     }
     return result;
   }
@@ -219,11 +219,12 @@ class Resolver {
   void stands_for(const std::string& path, const std::string& other) { parameters_[path].stands_for = other; }
 
   ResolvedNumber resolve(const ParameterDeclaration& p, const Number& number, const std::string& name,
-                         const std::string& origin) {
+                         const Value& value) {
     ResolvedNumber n;
     n.parameter = name;
-    n.origin = origin;
-    const std::string where = was_set(origin) ? origin : place(p.name);
+    n.origin = value.origin;
+    n.known_to = value.known_to;
+    const std::string where = was_set(value.origin) ? value.origin : place(p.name);
     const bool variable = p.unit.find('$') != std::string::npos;
     try {
       const Unit declared = variable ? Unit{} : parse_unit(p.unit, where);

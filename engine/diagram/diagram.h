@@ -41,6 +41,8 @@ struct NumberMatrix {
 struct Value {
   std::variant<Number, NumberList, std::string, Reference, SeriesPointer, NumberMatrix> content;
   std::string origin{};  ///< where it was written: "stage.json#/blocks/a/gain", "--set a.gain=2" ("" = from C++)
+  /// One standard deviation of what is known of its numbers, as a part of each: 0.02; 0 = exact; none: nobody says.
+  std::optional<double> known_to{};
 
   Value() = default;
   Value(double number) : content(Number{number, {}}) {}  // NOLINT: implicit on purpose, so that C++ diagrams read well

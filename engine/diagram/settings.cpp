@@ -166,7 +166,9 @@ class Setting {
   /// Writes the new value, or one element of the old one. `written`: is there an old one.
   void put(const Value& old, Value& to, bool written) {
     if (name_.column < 0) {
+      const auto known_to = to.known_to;  // said of what stands at that place
       to = value_;
+      to.known_to = known_to;
       return;
     }
     const auto* number = std::get_if<Number>(&value_.content);

@@ -72,6 +72,8 @@ struct ParameterInfo {
   bool linear = false, offset = false;  ///< declared so at every slot
   bool free = false;
   std::string origin{};  ///< where the value was written
+  /// One standard deviation of what is known of it, as a part of the value; 0 = exact; none: nobody says.
+  std::optional<double> known_to{};
 };
 
 enum class Order { value, rate, derivative, loop };

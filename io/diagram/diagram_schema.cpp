@@ -172,6 +172,7 @@ Json diagram_parameter() {
   Json full = object("a number of the diagram, to which blocks refer by \"$name\"",
                      {{"value", {{"type", {"number", "string", "array"}}, {"description", "the value"}}},
                       {"unit", text("its unit")},
+                      {"known_to", known_to()},
                       {"bounds", std::move(bounds)},
                       {"free", {{"type", "boolean"}, {"description", "may a fit change it"}}},
                       {"remark", text("what a reader should know")}},
@@ -226,17 +227,18 @@ Json places() {
 
 void add_definitions(Json& definitions, const Registry& registry) {
   const Json element{{"$ref", "#/definitions/quantity"}};
-  Json with_unit =
-      object("numbers that share a unit",
-             {{"value", list_of("numbers", {{"type", "number"}})}, {"unit", {{"type", "string"}}}}, {"value"});
+  Json with_unit = object(
+      "numbers that share a unit",
+      {{"value", list_of("numbers", element)}, {"unit", {{"type", "string"}}}, {"known_to", known_to()}}, {"value"});
   definitions["list"] = {{"anyOf", Json::array({list_of("numbers, each perhaps with its unit", element),
                                                 std::move(with_unit),
                                                 {{"type", "string"}, {"pattern", R"(^\$[a-z][a-z0-9_]*$)"}},
                                                 {{"type", "number"}}})}};
   const Json row = list_of("a row", element);
   Json plain_rows = list_of("rows of numbers", list_of("a row", {{"type", "number"}}));
-  Json rows_with_unit = object("rows of numbers that share a unit",
-                               {{"value", std::move(plain_rows)}, {"unit", {{"type", "string"}}}}, {"value"});
+  Json rows_with_unit =
+      object("rows of numbers that share a unit",
+             {{"value", std::move(plain_rows)}, {"unit", {{"type", "string"}}}, {"known_to", known_to()}}, {"value"});
   definitions["matrix"] = {{"anyOf", Json::array({list_of("rows of numbers, each perhaps with its unit", row),
                                                   std::move(rows_with_unit),
                                                   {{"type", "string"}, {"pattern", R"(^\$[a-z][a-z0-9_]*$)"}}})}};

@@ -100,7 +100,7 @@ class DiagramWriter {
     Members list;
     for (const auto& [name, p] : d_.parameters) {
       const auto* number = std::get_if<Number>(&p.value.content);
-      const bool plain = !p.lower && !p.upper && !p.free && p.remark.empty();
+      const bool plain = !p.lower && !p.upper && !p.free && p.remark.empty() && !p.value.known_to;
       if (plain && !(number != nullptr && number->unit)) {
         list.emplace_back(name, value_text(p.value));
         continue;
@@ -110,8 +110,11 @@ class DiagramWriter {
         m.emplace_back("value", exact_number_text(number->value));
         m.emplace_back("unit", json_quoted(*number->unit));
       } else {
-        m.emplace_back("value", value_text(p.value));
+        Value alone = p.value;
+        alone.known_to.reset();
+        m.emplace_back("value", value_text(alone));
       }
+      if (p.value.known_to) m.emplace_back("known_to", known_to_text(*p.value.known_to));
       if (p.lower || p.upper)
         m.emplace_back("bounds", fmt::format("[{}, {}]", p.lower ? value_text(*p.lower) : "null",
                                              p.upper ? value_text(*p.upper) : "null"));

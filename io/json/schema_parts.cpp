@@ -26,6 +26,12 @@ Json list_of(const std::string& description, Json items) {
   return {{"type", "array"}, {"description", description}, {"items", std::move(items)}};
 }
 
+Json known_to() {
+  return {{"anyOf", Json::array({{{"type", "number"}, {"minimum", 0}, {"maximum", 1}},
+                                 {{"type", "string"}, {"pattern", R"(^[0-9.eE+-]+ *%?$)"}}})},
+          {"description", "how well it is known: one standard deviation as a part of it, \"2 %\" or 0.02; 0 = exact"}};
+}
+
 Json object(const std::string& description, Json properties, const std::vector<std::string>& required) {
   Json json{{"type", "object"}, {"description", description}, {"properties", std::move(properties)}};
   if (!required.empty()) json["required"] = required;
@@ -50,6 +56,10 @@ Json head(const std::string& title, const std::string& description) {
   Json json{{"$schema", "http://json-schema.org/draft-07/schema#"}, {"title", title}, {"description", description}};
   Json with_unit =
       object("a number with its unit", {{"value", {{"type", "number"}}}, {"unit", {{"type", "string"}}}}, {"value"});
+  Json with_more =
+      object("a number, with its unit and how well it is known",
+             {{"value", {{"type", {"number", "string"}}}}, {"unit", {{"type", "string"}}}, {"known_to", known_to()}},
+             {"value"});
   Json quantity_text{
       {"type", "string"}, {"pattern", number_pattern}, {"description", "a number with its unit: \"5 Hz\""}};
   Json value_text{{"type", "string"},
@@ -57,7 +67,7 @@ Json head(const std::string& title, const std::string& description) {
                   {"description", "a number with its unit, or \"$name\" of a parameter of the diagram"}};
   json["definitions"] = {
       {"quantity", {{"anyOf", Json::array({{{"type", "number"}}, quantity_text, with_unit})}}},
-      {"value", {{"anyOf", Json::array({{{"type", "number"}}, value_text, with_unit})}}},
+      {"value", {{"anyOf", Json::array({{{"type", "number"}}, value_text, with_more})}}},
   };
   return json;
 }

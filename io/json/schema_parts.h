@@ -21,6 +21,8 @@ Json choice_of(const std::string& description, const std::vector<std::string>& v
 /// 5, "5 Hz", {"value": 5, "unit": "Hz"}; with `reference` also "$name".
 Json quantity(const std::string& description, bool reference);
 Json list_of(const std::string& description, Json items);
+/// How well a number is known: 0.02, "2 %".
+Json known_to();
 /// An object with exactly these members.
 Json object(const std::string& description, Json properties, const std::vector<std::string>& required = {});
 /// An object whose member names match [a-z][a-z0-9_]* and whose members all look like `member`.

@@ -15,7 +15,7 @@ constexpr const char* number_forms =
     "a number, a number with its unit such as \"5 Hz\", or {\"value\": 5, \"unit\": \"Hz\"}";
 
 std::vector<std::string> object_keys(const std::vector<std::string>& also) {
-  std::vector<std::string> keys{"value", "unit"};
+  std::vector<std::string> keys{"value", "unit", "known_to"};
   keys.insert(keys.end(), also.begin(), also.end());
   return keys;
 }
@@ -63,6 +63,31 @@ std::optional<NumberMatrix> read_matrix(const JsonPlace& place, const std::optio
   return matrix;
 }
 
+/// "2 %", "0.02" or 0.02.
+std::optional<double> read_known_to(const JsonPlace& object, const Value& value) {
+  const auto place = object.find("known_to");
+  if (!place) return {};
+  const auto refuse = [&](const std::string& what, const std::string& cure) {
+    place->add("bad_value", what, cure);
+    return std::optional<double>();
+  };
+  if (std::holds_alternative<Reference>(value.content) || std::holds_alternative<std::string>(value.content))
+    return refuse("\"known_to\" says how well a number is known, and the value beside it is none",
+                  "write it at the number itself; that of \"$name\" stands in \"parameters\"");
+  std::optional<Number> part;
+  if (place->is_number()) part = Number{*place->number(), {}};
+  if (place->is_text()) part = number_from(*place->text());
+  const bool in_percent = part && part->unit && *part->unit == "%";
+  if (!part || (part->unit && !in_percent) || !std::isfinite(part->value))
+    return refuse("\"known_to\" is one standard deviation as a part of the value",
+                  "write \"2 %\" or 0.02; 0 of a number that is exact");
+  const double known_to = in_percent ? part->value / 100 : part->value;
+  if (known_to < 0 || known_to > 1)
+    return refuse(fmt::format("known to {} %, which is not from 0 to 100 %", exact_number_text(100 * known_to)),
+                  "write \"2 %\" or 0.02; for a number of which nothing is known \"free\": true in \"parameters\"");
+  return known_to;
+}
+
 /// [1, 2] or [[1, 2], [3, 4]].
 std::optional<Value> read_array(const JsonPlace& place, const std::optional<std::string>& unit) {
   const auto elements = place.elements();
@@ -99,7 +124,7 @@ std::optional<Number> read_number(const JsonPlace& place) {
     place.add_wrong_type(number_forms);
     return {};
   }
-  place.only(object_keys({}));
+  place.only({"value", "unit"});
   const auto value = place.need("value", "write {\"value\": 5, \"unit\": \"Hz\"}");
   const auto number = value ? value->number() : std::nullopt;
   const auto unit = read_unit(place);
@@ -131,6 +156,7 @@ std::optional<Value> read_value(const JsonPlace& place, const std::string& origi
     place.add_wrong_type("a number, a text, a list, or {\"value\": 5, \"unit\": \"Hz\"}");
   }
   if (value) value->origin = origin;
+  if (value && place.is_object()) value->known_to = read_known_to(place, *value);
   return value;
 }
 
@@ -146,6 +172,12 @@ std::string exact_number_text(double value) {
     text = text.substr(0, e + 1) + (negative ? "-" : "") + exponent;
   }
   return text;
+}
+
+std::string known_to_text(double known_to) {
+  const std::string percent = exact_number_text(100 * known_to);
+  const auto back = number_from(percent + " %");
+  return back && back->value / 100 == known_to ? json_quoted(percent + " %") : exact_number_text(known_to);
 }
 
 std::string rows_text(std::size_t count) { return count == 1 ? "1 row" : fmt::format("{} rows", count); }
@@ -195,6 +227,20 @@ std::string matrix_text(const NumberMatrix& matrix) {
 }  // namespace
 
 std::string value_text(const Value& value) {
+  if (value.known_to) {
+    Value plain = value;
+    plain.known_to.reset();
+    std::vector<std::string> members;
+    if (const auto* number = std::get_if<Number>(&value.content); number != nullptr && number->unit) {
+      members = {"\"value\": " + exact_number_text(number->value), "\"unit\": " + json_quoted(*number->unit)};
+    } else if (const std::string text = value_text(plain); text.starts_with('{')) {
+      members = {text.substr(1, text.size() - 2)};  // of a list with its unit
+    } else {
+      members = {"\"value\": " + text};
+    }
+    members.push_back("\"known_to\": " + known_to_text(*value.known_to));
+    return fmt::format("{{{}}}", fmt::join(members, ", "));
+  }
   if (const auto* number = std::get_if<Number>(&value.content)) return value_text(*number);
   if (const auto* list = std::get_if<NumberList>(&value.content)) return list_text(*list);
   if (const auto* matrix = std::get_if<NumberMatrix>(&value.content)) return matrix_text(*matrix);

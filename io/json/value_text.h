@@ -24,6 +24,8 @@ std::string numbers_text(const NumberList& list);
 
 /// Shortest text that reads back as the same double, as JSON wants it. Throws Error "not_finite".
 std::string exact_number_text(double value);
+/// How well a number is known: "2 %" in quotes, or the shortest number that reads back as the same.
+std::string known_to_text(double known_to);
 /// "1 row", "5 rows".
 std::string rows_text(std::size_t count);
 /// A text in quotes.

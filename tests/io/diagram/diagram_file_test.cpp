@@ -313,6 +313,31 @@ TEST(DiagramFile, WhatIsSaidOfAlgebraicLoopsIsReadAndWritten) {
   EXPECT_NE(diagram_text(d).find(settings), std::string::npos) << diagram_text(d);
 }
 
+TEST(DiagramFile, HowWellNumbersAreKnownIsReadAndWritten) {
+  const std::string text = R"json({
+  "format": 1,
+  "parameters": {
+    "k": {"value": 400, "unit": "N/m", "known_to": "2 %", "bounds": [1, null]},
+    "c": {"value": 4, "known_to": 0.1}
+  },
+  "blocks": {
+    "force": {"type": "gain", "gain": {"value": 10, "unit": "N/V", "known_to": 0}, "in": "u"},
+    "plays": {"type": "prandtl_ishlinskii", "thresholds": {"value": [0, 1], "known_to": "0.5 %"}, "weights": [1, 2], "in": "force"}}})json";
+  const TemporaryFolder folder;
+  const Diagram d = read_diagram(folder.write("d.json", text));
+  EXPECT_EQ(d.parameters.find("k")->value.known_to, 0.02);
+  EXPECT_EQ(d.parameters.find("c")->value.known_to, 0.1);
+  EXPECT_EQ(d.blocks.find("force")->parameters.find("gain")->known_to, 0);
+  EXPECT_EQ(d.blocks.find("plays")->parameters.find("thresholds")->known_to, 0.005);
+  EXPECT_FALSE(d.blocks.find("plays")->parameters.find("weights")->known_to.has_value());
+  const Diagram again = read_diagram(folder.write("e.json", diagram_text(d)));
+  EXPECT_EQ(diagram_text(again), diagram_text(d));
+  for (const char* part : {R"({"value": 400, "unit": "N/m", "known_to": "2 %", "bounds": [1, null]})",
+                           R"({"value": 4, "known_to": "10 %"})", R"({"value": 10, "unit": "N/V", "known_to": "0 %"})",
+                           R"({"value": [0, 1], "known_to": "0.5 %"})"})
+    EXPECT_NE(diagram_text(d).find(part), std::string::npos) << part << "\n" << diagram_text(d);
+}
+
 TEST(DiagramFile, StartPastAndFixedStepAreReadAndWritten) {
   const std::string settings =
       R"("simulate": {"start": "steady", "past": {"core": ["0 V", "10 V", 3]}, "solver": {"method": "rk4", "step": "10 us"}})";
