@@ -2,9 +2,10 @@
 // diagram, discovers what is missing, writes the answers that the set's scoring program reads, and tells what it cost.
 //
 //   discovery FOLDER RESULTS [--only 003,004] [--jobs 1] [--threads 2] [--seconds 45] [--models] [--unstated] [--tell]
-//   [--progress]
+//   [--progress] [--looser 1]
 //
 // --models: whole models are chosen by one score (discover/selection), not one effect after the other.
+// --looser: candidates are simulated so many times looser: no answer may hang on it.
 // --unstated: the data set does not say how noisy the sensor is.
 // Each case runs in a process of its own: one that fails costs that case only.
 #include <fmt/format.h>
@@ -48,6 +49,7 @@ struct Wish {
   bool by_models = false;
   bool tell = false;      ///< everything that was tried
   bool progress = false;  ///< what is being tried, and the CPU seconds until then
+  double looser = 1;      ///< see DiscoverOptions
   Noise noise = Noise::stated;
 };
 
@@ -92,6 +94,7 @@ std::string answer_case(const std::filesystem::path& folder, const Wish& wish) {
     options.stop = [&] { return cpu_seconds() > wish.seconds; };
   }
   options.threads = wish.threads;
+  options.looser = wish.looser;
   options.free_paths = hidden.free_paths;
   options.numbers_are_exact = hidden.numbers_are_exact;
   if (wish.progress)
@@ -200,6 +203,8 @@ std::optional<Wish> read_wish(int argc, char** argv) {
       wish.threads = std::atoi(next().c_str());
     } else if (word == "--seconds") {
       wish.seconds = std::atof(next().c_str());
+    } else if (word == "--looser") {
+      wish.looser = std::atof(next().c_str());
     } else if (word == "--models") {
       wish.by_models = true;
     } else if (word == "--unstated") {
@@ -226,7 +231,7 @@ int main(int argc, char** argv) {
     fmt::print(
         stderr,
         "discovery FOLDER RESULTS [--only 003,004] [--jobs 1] [--threads 2] [--seconds 45] [--models] [--unstated] "
-        "[--tell] [--progress]\n"
+        "[--tell] [--progress] [--looser 1]\n"
         "FOLDER holds one folder with task.json and recordings per case; answers go to RESULTS.\n");
     return 2;
   }
