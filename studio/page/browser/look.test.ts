@@ -71,7 +71,7 @@ describe('looking', () => {
     await studio.tab('Waterfall');
     expect(await page.locator('.waterfall text.value').allTextContents()).toEqual(['61.22 nm', expect.stringMatching(/^0\.23\d* nm$/)]);
     await studio.verb('Compare');
-    await page.waitForSelector('.panel-head .headline:has-text("misses y by 0.00023")');
+    await page.waitForSelector('.panel-head .headline:has-text("misses y by 0.23")');
     await page.click('[aria-label="undo"]');
     await studio.until(() => studio.read('demo/stage.json') === original);
     await page.click('.menu > button');
