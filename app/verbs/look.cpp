@@ -92,17 +92,25 @@ std::optional<Inspected> inspected_against(const Diagram& diagram, const DataSet
   }
 }
 
-/// Where the experiment that is asked for goes, "" = nowhere. A recording, or any other file, is never written over;
-/// what cannot be written is told before hours of search.
-std::string experiment_file(const Arguments& arguments) {
-  const std::string option = "--experiment";
+/// A file that an option asks for beside the folder of results.
+struct Beside {
+  std::string option, ending, form;  ///< "--experiment", ".csv", "a CSV"
+  std::string example, holds;        ///< "drive.csv", "experiment": in words
+  std::string_view head;             ///< with which a former one begins
+};
+
+/// Where it goes, "" = nowhere. A recording, or any other file, is never written over; what cannot be written is told
+/// before hours of search.
+std::string file_beside(const Arguments& arguments, const Beside& what) {
+  const std::string& option = what.option;
   if (!arguments.has(option)) return "";
   const std::string file = arguments.text(option);
-  need_ending(option, file, {".csv"}, "a CSV, e.g. --experiment drive.csv");
+  need_ending(option, file, {what.ending}, fmt::format("{}, e.g. {} {}", what.form, option, what.example));
   std::error_code none;
   const auto status = std::filesystem::status(file, none);
   if (std::filesystem::is_directory(status))
-    fail("cannot_write", option, file + " is a folder", "name a file in it, e.g. " + file + "/drive.csv");
+    fail("cannot_write", option, file + " is a folder",
+         fmt::format("name a file in it, e.g. {}/{}", file, what.example));
   const auto folder = std::filesystem::path(file).parent_path();
   if (!folder.empty() && !std::filesystem::is_directory(folder, none))
     fail("cannot_write", option, fmt::format("there is no folder {}", folder.string()),
@@ -111,9 +119,9 @@ std::string experiment_file(const Arguments& arguments) {
     fail("cannot_write", option,
          fmt::format("nothing can be written into {}", folder.empty() ? "this folder" : folder.string()),
          "name a file in a folder of yours");
-  if (std::filesystem::is_regular_file(status) && !read_file(file).starts_with(drive_file_head))
-    fail("file_in_use", option, fmt::format("{} is there and holds no experiment, so it is not written over", file),
-         "name another file, e.g. drive.csv, or remove this one");
+  if (std::filesystem::is_regular_file(status) && !read_file(file).starts_with(what.head))
+    fail("file_in_use", option, fmt::format("{} is there and holds no {}, so it is not written over", file, what.holds),
+         fmt::format("name another file, e.g. {}, or remove this one", what.example));
   return file;
 }
 
@@ -174,8 +182,6 @@ Wish read_wish(const Arguments& arguments, const Watch& watch) {
          "leave out --search, or --check");
   if (settings.keeps_table && !wish.by_models)
     fail("bad_command_line", "--keep-table", "a search by steps has no table of models", "leave it out");
-  if (settings.keeps_table)
-    need_ending("--keep-table", arguments.text("--keep-table"), {".json"}, "a JSON file, e.g. --keep-table table.json");
   wish.given = load_data(arguments, *program);
   need_moving_outputs(wish.given, *program);
   wish.within = std::chrono::duration<double>(arguments.seconds("--within", std::numeric_limits<double>::infinity()));
@@ -235,7 +241,10 @@ void tell_end(Document& document, const Arguments& arguments, bool stopped, bool
 }  // namespace
 
 Answer look(const std::string& verb, const Arguments& arguments, const Watch& watch) {
-  const std::string drive = experiment_file(arguments);
+  const std::string drive =
+      file_beside(arguments, {"--experiment", ".csv", "a CSV", "drive.csv", "experiment", drive_file_head});
+  const std::string table = file_beside(
+      arguments, {"--keep-table", ".json", "a JSON file", "table.json", "table of models", model_table_head});
   Wish wish = read_wish(arguments, watch);
   auto same_rows = warnings_of_same_rows(wish.given);
   DataSet data = std::exchange(wish.given, {});
@@ -249,7 +258,7 @@ Answer look(const std::string& verb, const Arguments& arguments, const Watch& wa
   const auto inspected = inspected_against(found.base_diagram, data, wish.effects, wish.settings.free_paths,
                                            stopped || found.broken_off, watch);
   Answer answer;
-  if (arguments.has("--keep-table")) answer.files.push_back({arguments.text("--keep-table"), model_table_text(found)});
+  if (!table.empty()) answer.files.push_back({table, model_table_text(found)});
   answer.folder = result_folder(arguments, verb);
   Document& document = answer.document;
   document = discovery_document(verb, found, data, registry(), inspected.value_or(Inspected{}),

@@ -19,7 +19,7 @@ struct StructureFit {
 };
 
 /// By least squares over all recordings alike. `rows`: measured less predicted [SI], `weights`: of each row, of each
-/// part. `with_gain`: beside a gain and an offset of the whole output. Nothing is left empty-handed: what does not
+/// part. `with_gain`: beside a gain and an offset of the whole output. What does not
 /// explain, bursts or more levels than a thousand, leaves the rows as they are.
 StructureFit fit_structure(const Structure& structure, const ResidualParts& parts, const std::vector<Rows>& rows,
                            const std::vector<Rows>& weights, bool with_gain);

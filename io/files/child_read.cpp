@@ -182,7 +182,7 @@ bool is_crash(int signal) {
                           : by == SIGXCPU ? fmt::format("has come to no end in {} s", most_seconds(what))
                                           : fmt::format("crashes on it (signal {}, {})", by, ::strsignal(by));
   throw Error(Fault::input, {{"damaged_file", what.file,
-                              fmt::format("this {} cannot be read: it is damaged, {} {}", what.kind, what.library, how),
+                              fmt::format("this {} cannot be read: it is damaged, {} {}", what.kind, what.read_by, how),
                               what.cure, what.file, 0}});
 }
 

@@ -22,7 +22,7 @@ namespace hysteron {
 struct ReadByLibrary {
   std::string file;
   std::string kind;           ///< of the file: "HDF5 file"
-  std::string library;        ///< what reads it: "the HDF5 library"
+  std::string read_by;        ///< "the HDF5 library"
   std::string cure;           ///< where the file is damaged
   unsigned most_seconds = 0;  ///< of the processor; 0: what the size of the file allows, at 1 MB/s
 };

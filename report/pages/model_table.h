@@ -8,6 +8,9 @@
 
 namespace hysteron {
 
+/// With which its text begins.
+inline constexpr char model_table_head[] = "{\n \"models\": [";
+
 /// JSON: "models", each with what it adds and what it leaves of each column of each recording. All in SI.
 std::string model_table_text(const Discovery& found);
 

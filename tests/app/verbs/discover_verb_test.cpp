@@ -197,6 +197,37 @@ TEST_F(DiscoverVerb, WhereNoExperimentIsAskedForNoneIsWritten) {
   EXPECT_FALSE(folder_.has("drive.csv"));
 }
 
+TEST_F(DiscoverVerb, KeepsTheModelsThatWereFittedAndWritesOverNothingElse) {
+  record(3, 0.02);
+  const auto kept = [&](const std::string& file, const std::string& search = "models") {
+    return hysteron(folder_.path(), {"discover", "diagram.json", "--data", "dataset.json", "--only", "amplifier_lag",
+                                     "--keep-table", file, "--search", search, "-o", "out"});
+  };
+  const std::string data = folder_.read("dataset.json");
+  const Outcome over = kept("dataset.json");
+  EXPECT_EQ(over.code, 2);
+  EXPECT_NE(over.err.find("holds no table of models"), std::string::npos) << over.err;
+  EXPECT_EQ(folder_.read("dataset.json"), data);
+  EXPECT_EQ(kept("table.json", "steps").code, 2);
+  for (int twice = 0; twice < 2; ++twice) ASSERT_EQ(kept("table.json").code, 0);
+  int chosen = 0, nulls = 0;
+  const json table = json::parse(folder_.read("table.json"));
+  for (const auto& m : table.at("models")) {
+    chosen += m["chosen"].get<bool>();
+    nulls += m["effect"] == "" && m["step"] == 1;
+    for (const auto& l : m["left"]) {
+      // Half the mean square of the change from row to row is no more than twice the mean square: |a - b|^2 / 2 of any
+      // two is at most a^2 + b^2, and each row stands in two.
+      double sum = 0;
+      for (const double s : l["squares"]) sum += s;
+      EXPECT_LE(l["scatter"].get<double>() * (l["rows"].get<double>() - 1), 2 * sum);
+      EXPECT_GT(sum, 0);
+    }
+  }
+  EXPECT_EQ(chosen, 1);
+  EXPECT_GE(nulls, 1);
+}
+
 TEST_F(DiscoverVerb, StructuresThatCompetedSayWhatTheyTakeAwayAndWhyTheyDoNotCount) {
   record(3, 0.02);
   const json structures = looked_for_a_lag("steps")["facts"]["structures"];
