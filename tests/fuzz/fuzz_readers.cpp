@@ -88,6 +88,9 @@ struct Format {
   std::vector<std::string> seeds;
   std::vector<std::string> words;
   std::function<void(const std::string&)> read;
+  /// Where a checksum or a length would tell every damage: damages what stands behind it. Takes a file, and the name of
+  /// one that it may write.
+  std::function<std::string(const std::string&, Mutator&, const std::string&)> damaged_inside = nullptr;
 };
 
 const std::vector<std::string> words_of_text{",",        ";",
@@ -107,6 +110,31 @@ const std::vector<std::string> words_of_json{
     "{",       "}",          "[",       "]",       "\"", ":",  ",",        "null",   "true", "1e999",   "-1",
     "\"1 V\"", "\"1e30 s\"", "\\u0000", "\\ud800", "//", "$x", "\"from\"", "\"in\"", "[[[[", "\"file\""};
 
+/// Workbooks are archives with checksums: their parts are damaged, and packed anew.
+std::string repacked(const std::string& archive, Mutator& mutator, const std::string& file) {
+  std::ofstream(file, std::ios::binary) << archive;
+  std::vector<std::pair<std::string, std::string>> parts;
+  try {
+    const ZipArchive zip(file, {"workbook", "none", longest_file, 4 * longest_file});
+    for (const auto& name : zip.names()) parts.emplace_back(name, zip.part(name));
+  } catch (const Error&) {
+  }
+  if (parts.empty()) return archive;
+  auto& [name, content] = parts[mutator.pick(parts.size())];
+  content = mutator.mutated(content, parts[mutator.pick(parts.size())].second, longest_file);
+  return zipped(parts);
+}
+
+/// A table of numbers says in its first line how long it is and where its columns begin: that line is damaged, and
+/// padded with blanks to its length where it can be.
+std::string damaged_head(const std::string& table, Mutator& mutator, const std::string& /*file*/) {
+  const auto size = std::min(table.find('\n'), table.size());
+  std::string head = mutator.mutated(table.substr(0, size), table.substr(0, size), longest_file);
+  while (head.size() > size && head.back() == ' ') head.pop_back();
+  head.resize(std::max(head.size(), size), ' ');
+  return head + table.substr(size);
+}
+
 void read_as_recording(const std::string& file) { read_measured_recording(file, 2, {}); }
 
 void add_formats_of_instruments(std::vector<Format>& formats) {
@@ -117,7 +145,8 @@ void add_formats_of_instruments(std::vector<Format>& formats) {
               "x.xlsx",
               {},
               {"<c r=\"A1\">", "<v>", "</v>", "<row>", "t=\"s\"", "&#0;", "1e308", "XFD1048576", "<!--", "r=\"A1\""},
-              read_as_recording};
+              read_as_recording,
+              repacked};
   Format mat5{"mat5", "x.mat", {}, {}, read_as_recording}, mat73{"mat73", "x.mat", {}, {}, read_as_recording};
   Format hdf5{"hdf5", "x.h5", {}, {}, read_as_recording},
       tdms{"tdms", "x.tdms", {}, {"TDSm", "NI_Scale[0]_Scale_Type", "wf_increment"}, read_as_recording};
@@ -148,6 +177,27 @@ std::vector<std::string> files_below(const std::string& folder, const std::funct
   return texts;
 }
 
+/// One of three rows, and one whose pyramid has a level.
+std::vector<std::string> tables_of_numbers() {
+  const TemporaryFolder folder;
+  std::vector<std::string> tables;
+  for (const int rows : {3, 200}) {
+    std::string text = "t [s],u [V]\n";
+    for (int row = 0; row < rows; ++row) text += fmt::format("{},{}\n", row, row % 7);
+    write_binary_table(folder.path("x.f64"), read_csv(folder.write("a.csv", text)));
+    tables.push_back(TemporaryFolder::read(folder.path("x.f64")));
+  }
+  return tables;
+}
+
+/// As a reader that zooms, then as a recording, of which digests are asked for.
+void read_as_table_of_numbers(const std::string& file) {
+  BinaryTable table(file);
+  for (std::size_t column = 0; column < table.columns().size(); ++column)
+    for (const std::size_t most : {1, 3, 1000}) table.envelope(column, 1, table.rows(), most);
+  read_recording_file(file, 2);
+}
+
 // A recording that stands beside what is tried, and a data set that is read to its end.
 constexpr char beside[] = "beside.csv";
 constexpr char recording_beside[] = "t [s],u [V],y [um]\n0,0,0\n1,1,2\n2,2,4\n3,1,2\n4,0,0\n5,1,2\n6,2,4\n7,1,2\n";
@@ -172,12 +222,7 @@ std::vector<Format> all_formats() {
                      [](const std::string& file) { read_runs_job(file); }});
   formats.push_back({"study", "x.json", files_below("diagrams", has("\"do\": \"study\"")), words_of_json,
                      [](const std::string& file) { read_study_job(file); }});
-  const TemporaryFolder folder;
-  write_binary_table(folder.path("x.f64"), read_csv(folder.write("a.csv", "t [s],u [V]\n0,1\n1,2\n2,4\n")));
-  formats.push_back(
-      {"f64", "x.f64", {TemporaryFolder::read(folder.path("x.f64"))}, words_of_text, [](const std::string& file) {
-         read_dataset(file);
-       }});
+  formats.push_back({"f64", "x.f64", tables_of_numbers(), words_of_json, read_as_table_of_numbers, damaged_head});
   return formats;
 }
 
@@ -215,21 +260,6 @@ struct Options {
   std::string folder;
 };
 
-/// Workbooks are archives with checksums: their parts are damaged, and packed anew.
-std::string repacked(const std::string& archive, Mutator& mutator, const std::string& file) {
-  std::ofstream(file, std::ios::binary) << archive;
-  std::vector<std::pair<std::string, std::string>> parts;
-  try {
-    const ZipArchive zip(file, {"workbook", "none", longest_file, 4 * longest_file});
-    for (const auto& name : zip.names()) parts.emplace_back(name, zip.part(name));
-  } catch (const Error&) {
-  }
-  if (parts.empty()) return archive;
-  auto& [name, content] = parts[mutator.pick(parts.size())];
-  content = mutator.mutated(content, parts[mutator.pick(parts.size())].second, longest_file);
-  return zipped(parts);
-}
-
 void fuzz(const Format& format, const Options& options) {
   const std::string file = options.folder + "/" + format.name + ".input." + format.file;
   const std::string message = "longer than " + std::to_string(longest_seconds) + " s: " + file + "\n";
@@ -247,14 +277,15 @@ void fuzz(const Format& format, const Options& options) {
   };
   shared->reached.fill(0);
   for (const auto& seed : format.seeds) try_one(seed);
+  if (were_read == 0) found("no good file of " + format.name + " was read", file);
   const auto ended = [&] {
     if (options.seconds <= 0) return executions >= options.executions;
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() > options.seconds;
   };
   while (!ended()) {
     const std::string &one = corpus[mutator.pick(corpus.size())], &other = corpus[mutator.pick(corpus.size())];
-    const bool inside = format.name == "xlsx" && mutator.pick(4) != 0;
-    std::string bytes = inside ? repacked(one, mutator, file) : mutator.mutated(one, other, longest_file);
+    const bool inside = format.damaged_inside && mutator.pick(4) != 0;
+    std::string bytes = inside ? format.damaged_inside(one, mutator, file) : mutator.mutated(one, other, longest_file);
     try_one(bytes);
     if (shared->newly_reached > 0) corpus.push_back(std::move(bytes));
   }
