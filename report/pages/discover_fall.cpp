@@ -29,54 +29,95 @@ const OutputError* find(const std::vector<OutputError>& judged, const std::strin
 /// How far below what the device repeats to an error is no chance: of some hundred rows rms is known to some per cent.
 constexpr double clearly_below = 0.9;
 
+/// The unit of the axis of a waterfall, in which its bars and lines are told, too.
+struct AxisUnit {
+  Unit column;
+  ReadableUnit readable;
+
+  double number(double si) const { return readable.times * column.difference_from_si(si); }
+  std::string text(double si, int digits) const {
+    return number_text(number(si), digits) + (readable.text.empty() ? "" : " " + readable.text);
+  }
+  std::string label() const { return fmt::format("RMS [{}]", readable.text.empty() ? "1" : readable.text); }
+};
+
+/// For all of these [SI], those that are not above zero left out.
+AxisUnit axis_unit(const Unit& column, std::vector<double> sizes) {
+  std::erase_if(sizes, [](double si) { return !(si > 0); });
+  if (sizes.empty()) return {column, {1, unit_text(column)}};
+  const auto [small, large] = std::minmax_element(sizes.begin(), sizes.end());
+  return {column, readable_unit_of_range(*small, *large, unit_of_differences(column))};
+}
+
 /// What the lines are, and what it means to be below them. `begun`, `reached`: errors of the base and of the last
 /// model.
-std::string floor_text(const Floor& floor, const Unit& unit, double begun, double reached) {
-  const std::string noise = floor.noise > 0 ? fmt::format("noise of the sensor, {} rms ({})",
-                                                          difference_text(floor.noise, unit), floor.noise_from)
-                                            : "";
+std::string floor_text(const Floor& floor, const AxisUnit& unit, double begun, double reached) {
+  const std::string noise =
+      floor.noise > 0 ? fmt::format("sensor noise, {} rms ({})", unit.text(floor.noise, 4), floor.noise_from) : "";
   if (!(floor.repeatability > 0))
-    return noise.empty() ? "" : fmt::format("Nothing was recorded twice, so the floor is the {}.", noise);
-  std::string text = fmt::format("The floor is what the device itself repeats to: {}, {} rms.", floor.repeats,
-                                 difference_text(floor.repeatability, unit));
+    return noise.empty() ? "" : fmt::format("Nothing was recorded twice, so the limit is the {}.", noise);
+  std::string text = fmt::format("The limit is the repeatability of the device: {}, {} rms.", floor.repeats,
+                                 unit.text(floor.repeatability, 4));
   if (reached < clearly_below * floor.repeatability && begun > floor.repeatability)
-    text += " The model lies below it: it tells why the takes differ (creep, drift, the start).";
+    text += " The model is better than that: it explains why the repeats differ (creep, drift, the start).";
   if (!noise.empty()) text += fmt::format(" Judged against the {}.", noise);
   return text;
 }
 
-Figure waterfall(const Discovery& found, const DataModel& model, int output, const Floor& floor) {
-  const std::string name = model.outputs()[at(output)];
-  const Unit unit = output_unit(model, output);
-  Figure figure;
-  figure.kind = "waterfall";
-  figure.title = fmt::format("{}: error on recordings that were not fitted, step by step", name);
-  figure.y_label = axis_text("RMS", unit_of_differences(unit));
+/// [SI], 0 where no recording of these measured the output.
+double unseen_error(const ModelError& error, const std::string& output) {
+  const auto judged = by_output(error, Role::validate);
+  const OutputError* j = find(judged, output);
+  return j == nullptr ? 0 : j->rms;
+}
+
+/// A bar or a line, before the unit of the axis is known.
+struct Told {
+  std::string label, role;
+  double rms = 0;    ///< [SI]
+  double nrmse = 0;  ///< of a bar
+};
+
+/// The error of an output as given, with the user's parameters fitted, and after each step; below them what limits it.
+std::vector<Told> told_of(const Discovery& found, const std::string& output, const Floor& floor) {
+  std::vector<Told> list;
   const auto bar = [&](const std::string& label, const ModelError& error, const std::string& role) {
     const auto judged = by_output(error, Role::validate);
-    const OutputError* j = find(judged, name);
-    if (j == nullptr) return;
-    figure.bars.push_back({label, unit.difference_from_si(j->rms),
-                           fmt::format("{} ({})", difference_text(j->rms, unit, 3), percent_text(j->nrmse)), role});
+    if (const OutputError* j = find(judged, output); j != nullptr) list.push_back({label, role, j->rms, j->nrmse});
   };
   bar("as given", found.as_given, "before");
   // A refit of the user's own parameters is a step of its own only where there were any.
   if (!found.base_parameters.empty()) bar("own parameters fitted", found.base, "");
   for (std::size_t i = 0; i < found.steps.size(); ++i) bar("+ " + names_of(found.steps, i), found.steps[i].after, "");
+  if (list.empty()) return list;
+  if (list.size() > 1) list.back().role = "after";
+  const double reached = unseen_error(found.final_error, output);
+  if (floor.repeatability > 0) list.push_back({"repeatability", "floor", floor.repeatability});
+  if (floor.noise > 0 && (!(floor.repeatability > 0) || reached < floor.repeatability))
+    list.push_back({"noise of the sensor", "floor", floor.noise});
+  return list;
+}
+
+Figure waterfall(const Discovery& found, const DataModel& model, int output, const Floor& floor) {
+  const std::string name = model.outputs()[at(output)];
+  const auto told = told_of(found, name, floor);
+  std::vector<double> sizes;
+  for (const auto& one : told) sizes.push_back(one.rms);
+  const AxisUnit unit = axis_unit(output_unit(model, output), sizes);
+  Figure figure;
+  figure.kind = "waterfall";
+  figure.title = fmt::format("{}: error on recordings that were not fitted, step by step", name);
+  figure.y_label = unit.label();
+  for (const auto& one : told) {
+    const std::string size = unit.text(one.rms, 3);
+    figure.bars.push_back({one.label, unit.number(one.rms),
+                           one.role == "floor" ? size : fmt::format("{} ({})", size, percent_text(one.nrmse)),
+                           one.role});
+  }
   if (figure.bars.empty()) return figure;
-  if (figure.bars.size() > 1) figure.bars.back().role = "after";
-  figure.log_y = figure.bars.front().value > 20 * figure.bars.back().value;
-  const auto judged = by_output(found.final_error, Role::validate);
-  const OutputError* last = find(judged, name);
-  const double reached = last == nullptr ? 0 : last->rms;
-  const auto line = [&](const std::string& label, double rms) {
-    if (rms > 0) figure.bars.push_back({label, unit.difference_from_si(rms), difference_text(rms, unit, 3), "floor"});
-  };
-  line("repeatability", floor.repeatability);
-  if (!(floor.repeatability > 0) || reached < floor.repeatability) line("noise of the sensor", floor.noise);
-  const auto at_first = by_output(found.base, Role::validate);
-  const OutputError* first = find(at_first, name);
-  figure.caption = floor_text(floor, unit, first == nullptr ? 0 : first->rms, reached);
+  const auto bars = std::count_if(told.begin(), told.end(), [](const auto& one) { return one.role != "floor"; });
+  figure.log_y = told.front().rms > 20 * told[static_cast<std::size_t>(bars) - 1].rms;
+  figure.caption = floor_text(floor, unit, unseen_error(found.base, name), unseen_error(found.final_error, name));
   return figure;
 }
 
@@ -129,8 +170,9 @@ void add_step_figure(Section& section, const Document& document, const Discovery
     const Beside view = stages.beside();
     figure.curves.push_back(residual_curve(table, residual_column(view, place.output, step), "before", "before"));
     figure.curves.push_back(residual_curve(table, residual_column(view, place.output, step + 1), "after", "after"));
-    figure.caption = fmt::format("The recording, not used for the fit, from which this step took most: {} rms.",
-                                 fall_text(place.rms_before, place.rms_after, unit));
+    figure.caption =
+        fmt::format("Of the recordings not used for the fit, the one that this step improved most: {} rms.",
+                    fall_text(place.rms_before, place.rms_after, unit));
     section.figures.push_back(std::move(figure));
     return;
   }

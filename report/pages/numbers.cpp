@@ -7,8 +7,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/diagram/readable_unit.h"
-
 namespace hysteron {
 
 std::string number_text(double value, int digits) {
@@ -49,6 +47,13 @@ std::string quantity_text(double si, const Unit& unit, int digits) {
 
 std::string difference_text(double si, const Unit& unit, int digits) {
   return with_unit_text(unit.difference_from_si(si), unit, digits, smallest_size);
+}
+
+ReadableUnit readable_unit_of_range(double small, double large, const Unit& unit) {
+  constexpr double five_digits = 1e4;
+  const double most = unit.difference_from_si(large);
+  ReadableUnit of_small = readable_unit(unit.difference_from_si(small), unit_text(unit), smallest_size);
+  return std::abs(of_small.times * most) < five_digits ? of_small : readable_unit(most, unit_text(unit), smallest_size);
 }
 
 std::string percent_text(double share) {

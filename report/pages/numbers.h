@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "engine/diagram/readable_unit.h"
 #include "engine/diagram/units.h"
 
 namespace hysteron {
@@ -21,6 +22,11 @@ std::string quantity_text(double si, const Unit& unit, int digits = 4);
 
 /// The same for a difference: an error of 0.5 K is 0.5 degC, not -272.65 degC.
 std::string difference_text(double si, const Unit& unit, int digits = 4);
+
+/// The unit in which differences from `small` to `large` [SI] stand beside each other, as on one axis: the one that
+/// suits the small one, or, where the large one would have five digits before its point there, the one that suits the
+/// large one.
+ReadableUnit readable_unit_of_range(double small, double large, const Unit& unit);
 
 /// "12.3 %" of a share.
 std::string percent_text(double share);

@@ -69,9 +69,14 @@ void expect_the_error_is_seen_to_fall(const json& all) {
   const json& steps = section(all, "The error, step by step");
   const json& bars = steps["figures"][0]["bars"];
   EXPECT_EQ(steps["figures"][0]["kind"], "waterfall");
-  EXPECT_EQ(steps["figures"][0]["y_label"], "RMS [um]");
+  EXPECT_EQ(steps["figures"][0]["y_label"], "RMS [nm]");
   EXPECT_EQ(bars.front()["label"], "as given");
-  EXPECT_NEAR(bars.front()["value"].get<double>(), 0.06122, 0.0005);  // as in expect_the_answer
+  EXPECT_NEAR(bars.front()["value"].get<double>(), 61.22, 0.5);  // as in expect_the_answer
+  for (const auto& bar : bars) {  // each is told in the unit of the axis, to three digits
+    const auto text = bar["text"].get<std::string>();
+    EXPECT_NEAR(std::stod(text), bar["value"].get<double>(), 0.005 * bar["value"].get<double>()) << text;
+    EXPECT_EQ(text.substr(text.find(' '), 3), " nm") << text;
+  }
   EXPECT_EQ(bars.back()["role"], "floor");
   const json& residual = steps["figures"].back();
   EXPECT_TRUE(residual["title"].get<std::string>().starts_with("Step 1, creep: residual of")) << residual["title"];

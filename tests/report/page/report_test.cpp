@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -105,31 +106,67 @@ TEST(Report, ColoursALoopByTimeFromTheFirstShadeToTheLast) {
   EXPECT_FALSE(data.at(0)["curves"][0].contains("shade"));
 }
 
-/// Relative luminance of a colour "#rrggbb", 0 (black) to 1 (white). Source: WCAG 2.1, "relative luminance".
-double luminance(const std::string& colour) {
-  double sum = 0;
-  const double weights[] = {0.2126, 0.7152, 0.0722};
-  for (std::size_t i = 0; i < 3; ++i) {
-    const double c = std::stoi(colour.substr(1 + 2 * i, 2), nullptr, 16) / 255.0;
-    sum += weights[i] * (c <= 0.03928 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
-  }
-  return sum;
+struct Colour {
+  double red = 0, green = 0, blue = 0;  ///< 0 .. 1
+};
+
+/// "--name: #rrggbb" of a part of the style sheet.
+Colour colour_in(const std::string& css, const std::string& name) {
+  const auto at = css.find("--" + name + ": #");
+  EXPECT_NE(at, std::string::npos) << name;
+  if (at == std::string::npos) return {};
+  const auto channel = [&](std::size_t i) {
+    return std::stoi(css.substr(at + name.size() + 5 + 2 * i, 2), nullptr, 16) / 255.0;
+  };
+  return {channel(0), channel(1), channel(2)};
 }
 
-TEST(Report, ShowsEveryCurveAndBarInTheDark) {
+/// Relative luminance, 0 (black) to 1 (white). Source: WCAG 2.1, "relative luminance".
+double luminance(const Colour& colour) {
+  const auto linear = [](double c) { return c <= 0.03928 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4); };
+  return 0.2126 * linear(colour.red) + 0.7152 * linear(colour.green) + 0.0722 * linear(colour.blue);
+}
+
+/// WCAG 2.1, 1.4.11: what must be seen in a picture has a contrast of at least three to what is behind it.
+constexpr double least_contrast = 3;
+
+/// Of a colour that lets `1 - opacity` of the paper through.
+double contrast(const Colour& colour, const Colour& paper, double opacity = 1) {
+  const auto mixed = [&](double c, double p) { return opacity * c + (1 - opacity) * p; };
+  const double a = luminance(
+                   {mixed(colour.red, paper.red), mixed(colour.green, paper.green), mixed(colour.blue, paper.blue)}),
+               b = luminance(paper);
+  return (std::max(a, b) + 0.05) / (std::min(a, b) + 0.05);
+}
+
+/// On a screen, in the dark, on paper.
+std::vector<std::string> themes() {
   const std::string css(report_css);
-  const auto begin = css.find("@media (prefers-color-scheme: dark)"), end = css.find("@media print");
-  ASSERT_LT(begin, end);
-  const std::string dark = css.substr(begin, end - begin);
-  const auto colour = [&](const std::string& name) {
-    return dark.substr(dark.find("--" + name + ": #") + name.size() + 4, 7);
-  };
+  const auto dark = css.find("@media (prefers-color-scheme: dark)"), print = css.find("@media print");
+  EXPECT_LT(dark, print);
+  return {css.substr(0, dark), css.substr(dark, print - dark), css.substr(print)};
+}
+
+TEST(Report, ShowsEveryCurveAndBarInTheLightInTheDarkAndOnPaper) {
   std::vector<std::string> names = {"measured", "simulated", "before", "residual", "floor", "step"};
   for (int i = 0; i < 12; ++i) names.push_back("t" + std::to_string(i));
   for (int i = 0; i < 8; ++i) names.push_back("p" + std::to_string(i));
-  // WCAG 2.1, 1.4.11: what must be seen in a picture has at least three times the light of what is behind it.
-  for (const auto& name : names)
-    EXPECT_GE((luminance(colour(name)) + 0.05) / (luminance(colour("paper")) + 0.05), 3) << name << " " << colour(name);
+  for (const auto& theme : themes())
+    for (const auto& name : names)
+      EXPECT_GE(contrast(colour_in(theme, name), colour_in(theme, "paper")), least_contrast)
+          << name << " in " << theme.substr(0, 40);
+}
+
+TEST(Report, ShowsWhatWasMeasuredUnderWhatIsSimulated) {
+  const std::string css(report_css);
+  for (const char* rule : {".curve.c-measured {", ".curve.under {", ".curve.points.c-measured {"}) {
+    const auto at = css.find(rule);
+    ASSERT_NE(at, std::string::npos) << rule;
+    const std::string word = "stroke-opacity: ";
+    const double opacity = std::stod(css.substr(css.find(word, at) + word.size()));
+    for (const auto& theme : themes())
+      EXPECT_GE(contrast(colour_in(theme, "measured"), colour_in(theme, "paper"), opacity), least_contrast) << rule;
+  }
 }
 
 TEST(Report, DrawsAPartOfALongCurveFromAllItsPoints) {

@@ -30,6 +30,18 @@ TEST(QuantityText, KeepsTheUnitOfTheDataWhereItIsReadable) {
   EXPECT_EQ(quantity_text(1e-5, parse_unit("1")), "1e-05");  // no unit, no prefix
 }
 
+TEST(ReadableUnitOfRange, IsThatOfTheSmallEndUnlessTheLargeOneHasFiveDigitsThere) {
+  const auto text = [](double small, double large) {
+    return readable_unit_of_range(small, large, parse_unit("um")).text;
+  };
+  EXPECT_EQ(text(2.34e-10, 61.2e-9), "nm");
+  EXPECT_EQ(text(2e-8, 3e-6), "um");    // 0.02 um is read as it is
+  EXPECT_EQ(text(2e-9, 9.9e-6), "nm");  // 2 and 9900
+  EXPECT_EQ(text(2e-9, 12e-6), "um");   // 12000
+  EXPECT_EQ(text(1e-13, 2e-8), "um");   // 0.02 in place of 20000 pm
+  EXPECT_DOUBLE_EQ(readable_unit_of_range(2.34e-10, 61.2e-9, parse_unit("um")).times, 1000);
+}
+
 TEST(DigitsWithin, ShowTwoOfTheHalfWidth) {
   EXPECT_EQ(digits_within(0.47438, 0.47299, 0.47578), 4);             // 0.4744, within 0.0014
   EXPECT_EQ(digits_within(0.011102, 0.011092, 0.011113), 5);          // 0.011102, within 0.000011
