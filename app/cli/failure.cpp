@@ -37,7 +37,7 @@ Failure failure_of(const std::exception_ptr& exception) {
     return {exit_code::interrupted, {}, "interrupted; nothing is written"};
   } catch (const std::bad_alloc&) {
     return {exit_code::numerics,
-            {{"out_of_memory", "hysteron", "the memory of this machine did not suffice",
+            {{"out_of_memory", "hysteron", "this machine ran out of memory",
               "record fewer signals, or use a larger \"every\"", "", 0}}};
   } catch (const std::system_error& error) {
     return {exit_code::bad_input,

@@ -26,7 +26,7 @@ std::vector<Override> overrides(const Arguments& arguments, const std::string& o
   for (const auto& written : arguments.list(option)) {
     const auto equals = written.find('=');
     if (equals == 0 || equals == std::string::npos || equals + 1 == written.size())
-      fail("bad_command_line", option, "\"" + written + "\" does not say what becomes what",
+      fail("bad_command_line", option, "\"" + written + "\" has no value behind a \"=\"",
            option == "--set" ? "write --set controller.kp=\"0.5 V/um\"" : "write --choose compensator=none");
     list.push_back({written.substr(0, equals), written.substr(equals + 1)});
   }
@@ -118,11 +118,11 @@ void need_moving_outputs(const DataSet& data, const Program& program) {
       return r.role != Role::test && r.columns.contains(name);
     });
     if (measured == recordings.end() || moves(data, name)) continue;
-    problems.add("never_moves", data.file.empty() ? measured->name : data.file,
-                 fmt::format("{} never moves in {}", name,
-                             recordings.size() > 1 && !data.single ? "any recording" : measured->name),
-                 "see whether the sensor was connected and this is the column that was meant; take the output out of "
-                 "the diagram to go on without it");
+    problems.add(
+        "never_moves", data.file.empty() ? measured->name : data.file,
+        fmt::format("{} never moves in {}", name,
+                    recordings.size() > 1 && !data.single ? "any recording" : measured->name),
+        "check that the sensor was connected and that this is the right column; remove the output from the diagram to go on without it");
   }
   problems.throw_if_any();
 }

@@ -94,13 +94,26 @@ Arguments arguments_of(const ParsedVerb& parsed) {
        bare.starts_with("-") ? did_you_mean(bare, known) : fmt::format("see hysteron {} --help", parsed.verb.name));
 }
 
+/// The parser begins with the option: "--record: 1 required TEXT missing".
+[[noreturn]] void fail_without_value(const ParsedVerb* parsed, const std::string& told) {
+  const std::string option = told.substr(0, told.find(':'));
+  if (parsed != nullptr)
+    for (const auto& spec : parsed->verb.options)
+      if (spec.name == option && !spec.placeholder.empty())
+        fail("bad_command_line", option, "its value is missing or given twice",
+             fmt::format("write {}={}; see hysteron {} --help", option, spec.placeholder, parsed->verb.name));
+  fail("bad_command_line", parsed == nullptr ? "hysteron" : parsed->verb.name, told,
+       fmt::format("see hysteron {}--help", parsed == nullptr ? "" : parsed->verb.name + " "));
+}
+
 void check_verb_name(const std::vector<std::string>& words, const std::deque<ParsedVerb>& verbs) {
   const auto first = std::find_if(words.begin(), words.end(), [](const std::string& w) { return !w.starts_with("-"); });
   if (first == words.end() || first != words.begin()) return;
   std::vector<std::string> names;
   for (const auto& parsed : verbs) names.push_back(parsed.verb.name);
   if (std::find(names.begin(), names.end(), *first) == names.end())
-    fail("unknown_verb", *first, fmt::format("hysteron has no verb \"{}\"", *first), did_you_mean(*first, names));
+    fail("unknown_verb", *first, fmt::format("hysteron has no verb \"{}\"", *first),
+         did_you_mean(*first, names) + " \"hysteron --help\" lists all verbs.");
 }
 
 }  // namespace
@@ -163,6 +176,8 @@ AskedVerb read_words(const std::vector<std::string>& words) {
   } catch (const CLI::ExtrasError&) {
     if (chosen()) fail_unexpected(*chosen(), chosen()->app->remaining(true));
     fail("bad_command_line", words.front(), "was not expected here", "see hysteron --help");
+  } catch (const CLI::ArgumentMismatch& error) {
+    fail_without_value(chosen(), error.what());
   } catch (const CLI::ParseError& error) {
     const std::string verb = chosen() ? chosen()->verb.name + " " : "";
     fail("bad_command_line", verb.empty() ? "hysteron" : chosen()->verb.name, error.what(),

@@ -8,11 +8,11 @@
 #include <filesystem>
 #include <sstream>
 
-#include "app/cli/shell_word.h"
 #include "app/cluster/child_process.h"
 #include "engine/diagram/error.h"
 #include "engine/diagram/number_text.h"
 #include "io/files/atomic_file.h"
+#include "io/files/shell_word.h"
 
 namespace hysteron {
 namespace {

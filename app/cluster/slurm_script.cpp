@@ -7,7 +7,7 @@
 
 #include <set>
 
-#include "app/cli/shell_word.h"
+#include "io/files/shell_word.h"
 
 namespace hysteron {
 namespace {

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <filesystem>
 
-#include "app/cli/shell_word.h"
 #include "app/cluster/slurm.h"
 #include "engine/diagram/error.h"
+#include "io/files/shell_word.h"
 #include "report/pages/numbers.h"
 
 namespace hysteron {

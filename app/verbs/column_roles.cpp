@@ -7,6 +7,7 @@
 #include <span>
 
 #include "engine/diagram/error.h"
+#include "engine/diagram/name_list.h"
 #include "io/data/recording_file.h"
 #include "io/json/value_text.h"
 #include "report/pages/numbers.h"
@@ -167,7 +168,7 @@ std::string names_of(const CsvTable& table) {
   std::vector<std::string> names;
   for (const auto& column : table.columns)
     names.push_back(column.unit.text.empty() ? column.name : fmt::format("{} [{}]", column.name, column.unit.text));
-  return fmt::format("{}", fmt::join(names, ", "));
+  return name_list(names);
 }
 
 void check_columns(const CsvTable& table, const std::vector<std::string>& wanted, const std::string& option) {

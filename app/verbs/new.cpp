@@ -10,7 +10,6 @@
 #include "app/cli/answer.h"
 #include "app/cli/rewrite.h"
 #include "app/cli/shape.h"
-#include "app/cli/shell_word.h"
 #include "app/cli/target.h"
 #include "app/cli/terminal.h"
 #include "app/verbs/recording_preview.h"
@@ -19,6 +18,7 @@
 #include "io/data/measured_file.h"
 #include "io/data/recording_file.h"
 #include "io/files/atomic_file.h"
+#include "io/files/shell_word.h"
 
 namespace hysteron {
 namespace {

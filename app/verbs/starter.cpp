@@ -10,6 +10,7 @@
 #include <span>
 
 #include "engine/diagram/error.h"
+#include "engine/diagram/name_list.h"
 #include "engine/diagram/number_text.h"
 #include "fit/numerics/linear.h"
 #include "io/data/recording_file.h"
@@ -262,7 +263,7 @@ Starter make_starter(const StarterRecordings& recordings, const StarterRoles& gi
         std::find(roles.inputs.begin(), roles.inputs.end(), column.name) == roles.inputs.end() &&
         std::find(roles.outputs.begin(), roles.outputs.end(), column.name) == roles.outputs.end())
       side.push_back(column.name);
-  if (!side.empty()) starter.assumed.push_back(fmt::format("left as side channels: {}", fmt::join(side, ", ")));
+  if (!side.empty()) starter.assumed.push_back(fmt::format("left as side channels: {}", name_list(side)));
   return starter;
 }
 

@@ -13,7 +13,6 @@
 #include "app/cli/load.h"
 #include "app/cli/publish.h"
 #include "app/cli/shape.h"
-#include "app/cli/shell_word.h"
 #include "app/study/study_merge.h"
 #include "app/study/study_page.h"
 #include "app/study/study_shards.h"
@@ -22,6 +21,7 @@
 #include "engine/diagram/stop.h"
 #include "engine/lanes/lanes.h"
 #include "io/diagram/diagram_file.h"
+#include "io/files/shell_word.h"
 #include "report/pages/numbers.h"
 
 namespace hysteron {

@@ -126,7 +126,7 @@ std::string place_of(const Problem& p) {
 }  // namespace
 
 std::string did_you_mean(std::string_view name, const std::vector<std::string>& known) {
-  if (known.empty()) return "there are none";
+  if (known.empty()) return "there are none.";
   if (known.size() > names_in_full) return nearest_of_many(name, known);
   std::string text = fmt::format("choose one of {}.", fmt::join(known, ", "));
   if (const auto best = nearest_name(name, known); !best.empty()) text += fmt::format(" Did you mean \"{}\"?", best);

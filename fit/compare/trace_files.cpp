@@ -1,12 +1,12 @@
 #include "fit/compare/trace_files.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <numeric>
 
 #include "engine/diagram/error.h"
+#include "engine/diagram/name_list.h"
 
 namespace hysteron {
 namespace {
@@ -78,7 +78,7 @@ std::vector<std::pair<std::string, std::string>> pairs_of(const CsvTable& first,
   if (pairs.empty())
     fail("nothing_to_compare", first.file,
          fmt::format("no column besides {} has the same name in both files: {} and {}", axis,
-                     fmt::join(names_of(first), ", "), fmt::join(names_of(second), ", ")),
+                     name_list(names_of(first)), name_list(names_of(second))),
          "name the pair, first file first: --pair y=stage");
   return pairs;
 }
@@ -135,7 +135,7 @@ void remark_on_lone_columns(const CsvTable& table, bool is_first, TraceCompariso
   }
   if (!lone.empty())
     comparison.remarks.push_back(
-        fmt::format("{}: not compared, the other file has none: {}.", table.file, fmt::join(lone, ", ")));
+        fmt::format("{}: not compared, the other file has none: {}.", table.file, name_list(lone)));
 }
 
 }  // namespace

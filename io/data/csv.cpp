@@ -178,7 +178,7 @@ void refuse_binary(const std::string& file, std::string_view text) {
   throw Error(
       Fault::input,
       {{"unknown_file_type", file,
-        known.what.empty() ? "this is no text" : fmt::format("this is {}, and no CSV", known.what),
+        known.what.empty() ? "this is not a text file" : fmt::format("this is {}, not a CSV", known.what),
         known.cure.empty() ? "export the columns as CSV with a header t [s],u [V],y [um]" : known.cure, file, 0}});
 }
 

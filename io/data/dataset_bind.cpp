@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "engine/diagram/error.h"
+#include "engine/diagram/name_list.h"
 #include "engine/diagram/smooth_series.h"
 #include "io/data/recording_file.h"
 
@@ -78,7 +79,7 @@ class Binder {
     const std::string& first = program_.output_names.front();
     add("missing_column", first,
         fmt::format("{} has no column for any output of the diagram ({})", recording.name,
-                    fmt::join(program_.output_names, ", ")),
+                    name_list(program_.output_names)),
         did_you_mean(first, column_names(recording)) + bracket_hint(first, column_names(recording)) +
             fmt::format(
                 " A column of another name is bound in the data set: \"columns\": {{\"...\": {{\"to\": \"{}\"}}}}",

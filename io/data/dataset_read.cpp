@@ -18,6 +18,7 @@
 #include "io/files/project_path.h"
 #include "io/formats/file_format.h"
 #include "io/formats/instrument_unit.h"
+#include "io/json/file_kind.h"
 #include "io/json/json_reader.h"
 #include "io/json/quantity.h"
 #include "io/json/value_text.h"
@@ -82,6 +83,7 @@ class DataSetReader {
   DataSet read() {
     const JsonPlace root = file_.root();
     if (!root.expect_object("{\"format\": 1, \"recordings\": [...]}")) file_.throw_if_any();
+    check_kind(root, FileKind::data_set);
     check_format(root, "data set");
     root.only({"$schema", "format", "title", "source", "remark", "columns", "recordings"});
     text_member(root, "$schema");

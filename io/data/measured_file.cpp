@@ -1,16 +1,17 @@
 #include "io/data/measured_file.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "engine/diagram/error.h"
+#include "engine/diagram/name_list.h"
 #include "engine/diagram/number_text.h"
 #include "io/data/binary_table.h"
 #include "io/data/table_file.h"
 #include "io/files/atomic_file.h"
+#include "io/files/shell_word.h"
 #include "io/formats/cells.h"
 #include "io/formats/file_format.h"
 #include "io/formats/heading.h"
@@ -24,11 +25,6 @@ constexpr double sparse = 0.5;               // of the rows without a value: the
 constexpr double seconds_of_an_epoch = 1e8;  // times that large count from 1970, or 1904
 
 std::string short_number(double value) { return fmt::format("{:.6g}", value); }
-
-/// A name as it stands in a command: in quotes where it has blanks.
-std::string shell_safe(const std::string& name) {
-  return name.find_first_of(" ()'$&;|*") == name.npos ? name : json_quoted(name);
-}
 
 class Finisher {
  public:
@@ -163,9 +159,8 @@ class Finisher {
     if (candidates.size() > 1) {
       std::vector<std::string> list;
       for (const auto i : candidates) list.push_back(in_.columns[i].name);
-      refuse("ambiguous_time", in_.file,
-             fmt::format("{} columns may be the time: {}", list.size(), fmt::join(list, ", ")),
-             fmt::format("say which: --time {}", shell_safe(list.front())));
+      refuse("ambiguous_time", in_.file, fmt::format("{} columns may be the time: {}", list.size(), name_list(list)),
+             fmt::format("say which: --time {}", shell_word(list.front())));
     }
     if (!candidates.empty()) return take_time(candidates.front());
     if (in_.clock) return take_interval(*in_.clock, "from the settings in the file");
@@ -173,7 +168,7 @@ class Finisher {
         "missing_column", "t", "no column is the time",
         fmt::format("call it t [s], say which column it is with --time NAME (columns here: {}), or how far apart the "
                     "rows are: --interval \"1 ms\"",
-                    fmt::join(names(), ", ")));
+                    name_list(names())));
   }
 
   /// Exports of several channels repeat the times for each.
@@ -268,13 +263,13 @@ class Finisher {
       const auto add = [&](const char* code, std::string what, std::string cure) {
         problems.push_back({code, column.name, std::move(what), std::move(cure), in_.file, 1});
       };
-      const std::string option = fmt::format("--unit {}=", shell_safe(column.name));
+      const std::string option = fmt::format("--unit {}=", shell_word(column.name));
       if (unit.answer == UnitAnswer::unknown)
         add("bad_unit", fmt::format("\"{}\" is not a unit", written),
             fmt::format("say which it is: {0}V, or {0}1 for a plain number (in a data set: \"unit\" of the column)",
                         option));
       if (unit.answer == UnitAnswer::refused)
-        add("bad_unit", unit.note, unit.cure + fmt::format(", or leave it out: --without {}", shell_safe(column.name)));
+        add("bad_unit", unit.note, unit.cure + fmt::format(", or leave it out: --without {}", shell_word(column.name)));
       if (unit.answer == UnitAnswer::ambiguous)
         add("ambiguous_unit", unit.note, fmt::format("say which ({}): {}gravity", unit.cure, option));
       if (unit.answer != UnitAnswer::known) continue;
@@ -284,7 +279,7 @@ class Finisher {
     }
     if (!problems.empty()) throw Error(Fault::input, problems);
     if (!bare.empty())
-      out_.assumed.push_back(fmt::format("{} {} no unit and {} taken as plain numbers", fmt::join(bare, ", "),
+      out_.assumed.push_back(fmt::format("{} {} no unit and {} taken as plain numbers", name_list(bare),
                                          bare.size() == 1 ? "has" : "have", bare.size() == 1 ? "is" : "are"));
   }
 
@@ -300,7 +295,7 @@ class Finisher {
         refuse("sparse_column", column.name,
                fmt::format("column {} has a value in {} of {} rows: it was sampled at another rate", column.name,
                            static_cast<long>(rows) - missing, rows),
-               fmt::format("leave it out (--without {}), or export it to a file of its own", shell_safe(column.name)));
+               fmt::format("leave it out (--without {}), or export it to a file of its own", shell_word(column.name)));
     }
     std::vector<std::size_t> kept;
     std::size_t first_missing = rows;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/diagram/error.h"
+#include "engine/diagram/name_list.h"
 #include "engine/program/breakpoints.h"
 #include "io/data/measured_file.h"
 #include "io/data/table_file.h"
@@ -29,7 +30,7 @@ const CsvColumn& time_column(const CsvTable& table) {
     std::vector<std::string> known;
     for (const auto& c : table.columns) known.push_back(c.name);
     fail_in(table.file, 1, "missing_column", "t", "there is no column \"t\" (time)",
-            fmt::format("call the column of the times t [s] (columns here: {}).{}", fmt::join(known, ", "),
+            fmt::format("call the column of the times t [s] (columns here: {}).{}", name_list(known),
                         bracket_hint("t", known)));
   }
   if (time->unit.dimension != parse_unit("s").dimension)

@@ -11,10 +11,12 @@
 #include "engine/simulate/simulate.h"
 #include "io/data/recording_file.h"
 #include "io/diagram/diagram_file.h"
+#include "io/diagram/job_command.h"
 #include "io/diagram/parameter_table.h"
 #include "io/diagram/place_kinds.h"
 #include "io/files/project_path.h"
 #include "io/fmi/imported_fmu.h"
+#include "io/json/file_kind.h"
 #include "io/json/json_reader.h"
 #include "io/json/value_text.h"
 
@@ -41,12 +43,13 @@ class DiagramReader {
   Diagram read() {
     const JsonPlace root = file_.root();
     if (!root.expect_object("{\"format\": 1, \"blocks\": {...}}")) file_.throw_if_any();
+    check_kind(root, FileKind::diagram);
     check_format(root, "diagram");
     if (const auto what = root.find("do")) {  // of a job every other key would be wrong
-      const bool runs = what->is_text() && *what->text() == "runs";
+      const std::string kind = what->is_text() ? *what->text() : "fit";
       what->add("is_job", "this file is a job, not a diagram",
-                runs ? "run it with \"hysteron reproduce\", or name the diagram that it names"
-                     : "do it with \"hysteron fit\", or name the diagram that it names");
+                fmt::format("run it with \"{}\", or name the diagram that it names",
+                            job_command(kind == "runs" || kind == "study" ? kind : "fit", file_.file())));
       file_.throw_if_any();
     }
     root.only({"$schema", "format", "title", "source", "remark", "parameters", "inputs", "blocks", "outputs", "record",

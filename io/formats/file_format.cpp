@@ -43,9 +43,9 @@ MeasuredTable read_measured_table(const std::string& file, const ReadingChoices&
     throw Error(Fault::input, {{"unknown_file_type", file, what, cure, file, 0}});
   };
   if (!known.what.empty())
-    refuse(fmt::format("this is {}, and no recording that can be read here", known.what), known.cure);
+    refuse(fmt::format("this is {}, not a recording that hysteron reads", known.what), known.cure);
   if (!is_text(begin))
-    refuse("this is neither text nor a binary format that is known here",
+    refuse("this is neither text nor a binary format that hysteron reads",
            "export the recording as CSV with a header such as t [s],u [V],y [um]");
   return read_delimited_text(file, choices);
 }

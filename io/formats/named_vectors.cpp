@@ -1,12 +1,13 @@
 #include "io/formats/named_vectors.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>
 
 #include "engine/diagram/error.h"
+#include "engine/diagram/name_list.h"
+#include "io/files/shell_word.h"
 #include "io/formats/heading.h"
 
 namespace hysteron {
@@ -55,9 +56,8 @@ void check_groups(const MeasuredTable& table, const std::vector<MeasuredColumn>&
   if (times.size() < 2 || !differ) return;
   std::vector<std::string> names;
   for (const auto& [group, time] : times) names.push_back(group.empty() ? "(none)" : group);
-  refuse(table, "ambiguous_group",
-         fmt::format("{} groups have times of their own: {}", names.size(), fmt::join(names, ", ")),
-         fmt::format("say which is meant: --group \"{}\"", names.back()));
+  refuse(table, "ambiguous_group", fmt::format("{} groups have times of their own: {}", names.size(), name_list(names)),
+         "say which is meant: --group " + shell_word(names.back()));
 }
 
 std::size_t length_of_table(const MeasuredTable& table, const std::vector<MeasuredColumn>& vectors,
@@ -97,7 +97,7 @@ MeasuredTable table_of_vectors(MeasuredTable table, std::vector<MeasuredColumn> 
   }
   if (!left_out.empty())
     table.assumed.push_back(
-        fmt::format("left out, being of another length than {} samples: {}", length, fmt::join(left_out, ", ")));
+        fmt::format("left out, not of the same length ({} samples): {}", length, name_list(left_out)));
   const auto groups = groups_of(table.columns);
   for (auto& column : table.columns)  // a name says its group only where it has to
     if (groups.size() == 1) column.name = own_name(column.name);

@@ -186,8 +186,8 @@ MeasuredTable read_xlsx(const std::string& file, const ReadingChoices& choices) 
   if (!archive.has("xl/workbook.xml")) {  // a document of another kind in the same kind of archive
     const KnownFile known = known_file("PK\x03\x04", file);
     throw Error(Fault::input,
-                {{"unknown_file_type", file,
-                  fmt::format("this is {}, and no recording that can be read here", known.what), known.cure, file, 0}});
+                {{"unknown_file_type", file, fmt::format("this is {}, not a recording that hysteron reads", known.what),
+                  known.cure, file, 0}});
   }
   std::string name;
   const std::string part = sheet_part(archive, file, choices.sheet, name);

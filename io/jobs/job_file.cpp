@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "io/diagram/job_command.h"
 #include "io/files/project_path.h"
 #include "io/jobs/job_parts.h"
 #include "io/jobs/runs_schema.h"
@@ -62,9 +63,9 @@ class JobReader {
     if (!text || *text == "fit") return;
     if (*text == "runs" || *text == "study")
       place->add("other_job", *text == "runs" ? "this is a job of runs, no fit" : "this is a study, no fit",
-                 *text == "runs" ? "run it with \"hysteron reproduce\"" : "run it with \"hysteron study\"");
+                 fmt::format("run it with \"{}\"", job_command(*text, root.file().file())));
     else
-      place->add("bad_value", fmt::format("{} is nothing that can be done", json_quoted(*text)),
+      place->add("bad_value", fmt::format("\"do\" cannot be {}", json_quoted(*text)),
                  did_you_mean(*text, what_can_be_done));
   }
 

@@ -188,7 +188,7 @@ std::optional<ClaimPart> claim_of(const JsonPlace& place) {
   if (const auto must = text_of(place, "must")) {
     c.must_differ = must->text == "differ";
     if (must->text != "differ" && must->text != "agree")
-      place.find("must")->add("bad_value", fmt::format("{} is nothing that a claim must", json_quoted(must->text)),
+      place.find("must")->add("bad_value", fmt::format("\"must\" cannot be {}", json_quoted(must->text)),
                               "write \"must\": \"differ\", or leave it out");
   }
   if (c.order.empty() && c.value.text.empty())

@@ -6,8 +6,10 @@
 #include <cctype>
 #include <filesystem>
 
+#include "io/diagram/job_command.h"
 #include "io/files/project_path.h"
 #include "io/jobs/job_parts.h"
+#include "io/json/file_kind.h"
 #include "io/json/json_reader.h"
 #include "io/json/value_text.h"
 
@@ -34,6 +36,7 @@ class StudyReader {
     if (!root.expect_object(
             "{\"format\": 1, \"do\": \"study\", \"diagram\": \"stage.json\", \"sample\": {...}, \"features\": {...}}"))
       file_.throw_if_any();
+    check_kind(root, FileKind::job);
     check_format(root, "job");
     what(root);
     file_.throw_if_any();  // of another kind of job every key would be wrong
@@ -65,9 +68,9 @@ class StudyReader {
     if (!text || *text == "study") return;
     if (*text == "fit" || *text == "runs")
       place->add("other_job", fmt::format("this job does \"{}\", no study", *text),
-                 *text == "fit" ? "run it with \"hysteron fit\"" : "run it with \"hysteron reproduce\"");
+                 fmt::format("run it with \"{}\"", job_command(*text, root.file().file())));
     else
-      place->add("bad_value", fmt::format("{} is nothing that can be done", json_quoted(*text)),
+      place->add("bad_value", fmt::format("\"do\" cannot be {}", json_quoted(*text)),
                  did_you_mean(*text, {"study", "fit", "runs"}));
   }
 

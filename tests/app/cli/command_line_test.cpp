@@ -45,6 +45,17 @@ TEST(CommandLine, VersionIsPrinted) {
   EXPECT_TRUE(outcome.out.starts_with("hysteron ")) << outcome.out;
 }
 
+TEST(CommandLine, AnOptionWithoutItsValueAndAVerbThatIsNotThereSayWhatToWrite) {
+  const Folder folder;
+  const Outcome option = process::hysteron(folder.path(), {"run", "stage.json", "--record"});
+  EXPECT_EQ(option.code, 2);
+  EXPECT_EQ(option.err,
+            "--record\n  its value is missing or given twice\n  write --record=SIGNAL; see hysteron run --help\n");
+  const Outcome verb = process::hysteron(folder.path(), {"frobnicate"});
+  EXPECT_EQ(verb.code, 2);
+  EXPECT_NE(verb.err.find("\"hysteron --help\" lists all verbs"), std::string::npos) << verb.err;
+}
+
 class Help : public testing::TestWithParam<std::string> {};
 TEST_P(Help, TeachesWithExamplesWhatIsWrittenAndExitCodes) {
   const Folder folder;

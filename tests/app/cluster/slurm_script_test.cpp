@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include "app/cli/shell_word.h"
 #include "app/cluster/slurm.h"
 #include "engine/diagram/error.h"
+#include "io/files/shell_word.h"
 #include "tests/app/hysteron_process.h"
 
 namespace hysteron {

@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "engine/diagram/error.h"
+#include "io/diagram/diagram_file.h"
+#include "io/jobs/study_job.h"
 #include "tests/io/temporary_folder.h"
 
 namespace hysteron {
@@ -211,6 +214,32 @@ TEST(DataSet, ColumnsThatAreBoundToNothingStayAvailable) {
   const auto data = read_dataset(folder.write("a.csv", rows(10)));
   EXPECT_EQ(data.recordings[0].columns.at("T").front(), 293.15);
   EXPECT_EQ(data.notes.at("T").to, "T");
+}
+
+TEST(DataSet, AFileOfAnotherKindIsNamedAsWhatItIs) {
+  const TemporaryFolder folder;
+  const auto diagram = folder.write("my stage.json", "{\"format\": 1, \"blocks\": {}, \"outputs\": {}}");
+  const auto data = folder.write("d.json", "{\"format\": 1, \"columns\": {}, \"recordings\": []}");
+  const auto told = [](const std::function<void()>& read) {
+    try {
+      read();
+    } catch (const Error& error) {
+      EXPECT_EQ(error.problems.size(), 1U) << error.what();  // not every key that the other kind does not have
+      return error.problems.front().what + "; " + error.problems.front().cure;
+    }
+    return std::string("was read");
+  };
+  EXPECT_EQ(
+      told([&] { read_dataset(diagram); }),
+      "this file is a diagram, not a data set; name a recording or a data set here; a diagram comes first: hysteron "
+      "compare '" +
+          diagram + "' --data lab.csv");
+  EXPECT_EQ(
+      told([&] { read_diagram(data); }),
+      "this file is a data set, not a diagram; name a diagram here; a data set goes behind --data: hysteron compare "
+      "stage.json --data " +
+          data);
+  EXPECT_TRUE(told([&] { read_study_job(data); }).starts_with("this file is a data set, not a job"));
 }
 
 TEST(DataSet, AColumnThatIsMissingEverywhereIsToldOnce) {

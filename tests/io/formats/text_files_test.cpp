@@ -43,6 +43,18 @@ Problem refused(const std::string& bytes, const ReadingChoices& choices = {}) {
   return {};
 }
 
+TEST(InstrumentText, OfAHundredColumnsAFewAreNamed) {
+  std::string names, numbers;
+  for (int i = 1; i <= 100; ++i) {
+    names += fmt::format("{}c{} [V]", i == 1 ? "" : ",", i);
+    numbers += fmt::format("{}{}", i == 1 ? "" : ",", i % 7);
+  }
+  const Problem problem = refused(names + "\n" + numbers + "\n" + numbers + "\n" + numbers + "\n");
+  EXPECT_EQ(problem.code, "missing_column");
+  EXPECT_NE(problem.cure.find("(columns here: c1, c2, c3, c4, c5, c6, c7 and 93 more)"), std::string::npos)
+      << problem.cure;
+}
+
 class Instruments : public ::testing::TestWithParam<InstrumentFile> {};
 TEST_P(Instruments, FilesAreReadToTheLastDigitThatTheyHave) {
   const InstrumentFile& file = GetParam();
@@ -276,7 +288,7 @@ TEST(BinaryFiles, WhatIsOpenOrUnknownIsSaid) {
   says(told("a.tdms", instruments::tdms_of_scaling("Thermocouple")), "a scaling \"Thermocouple\"");
   const std::string two = instruments::mat_of_two_groups();
   says(told("a.mat", two),
-       "ambiguous_group: 2 groups have times of their own: monday, tuesday; say which is meant: --group \"tuesday\"");
+       "ambiguous_group: 2 groups have times of their own: monday, tuesday; say which is meant: --group tuesday");
   ReadingChoices choices;
   choices.group = "tuesday";
   EXPECT_EQ(read_measured_file(folder.path("a.mat"), choices).table.find("t")->values, (std::vector<double>{0, 2, 4}));

@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include "engine/diagram/error.h"
+#include "io/diagram/diagram_file.h"
+#include "io/diagram/job_command.h"
 #include "tests/io/temporary_folder.h"
 
 namespace hysteron {
@@ -91,6 +95,24 @@ TEST(JobFile, IsKnownByItsDo) {
   const TemporaryFolder folder;
   EXPECT_TRUE(is_job(folder.write("job.json", with(""))));
   EXPECT_FALSE(is_job(folder.write("d.json", "{\"format\": 1, \"blocks\": {}}")));
+}
+
+TEST(JobFile, TheCommandThatRunsAnotherKindOfJobWorksAsPrinted) {
+  EXPECT_EQ(job_command("study", "my jobs/tolerance.json"), "hysteron study 'my jobs/tolerance.json'");
+  EXPECT_EQ(job_command("fit", "job.json"), "hysteron fit job.json");
+  EXPECT_EQ(job_command("runs", "diagrams/chapter2/fig2_15.json"),
+            "hysteron reproduce fig2_15 --from diagrams/chapter2");
+  EXPECT_EQ(job_command("runs", "fig.json"), "hysteron reproduce fig --from .");
+  const TemporaryFolder folder;
+  const std::string file = folder.write("spread.json", "{\"format\": 1, \"do\": \"study\"}");
+  const std::vector<std::function<void()>> readers{[&] { read_diagram(file); }, [&] { read_fit_job(file); }};
+  for (const auto& read : readers) try {
+      read();
+      ADD_FAILURE() << "a study was read";
+    } catch (const Error& error) {
+      EXPECT_NE(error.problems.front().cure.find("\"hysteron study " + file + "\""), std::string::npos)
+          << error.problems.front().cure;
+    }
 }
 
 TEST(JobFile, OtherKindsOfJobsAreNoFits) {

@@ -1,4 +1,4 @@
-#include "app/cli/shell_word.h"
+#include "io/files/shell_word.h"
 
 #include <fmt/format.h>
 
