@@ -45,9 +45,9 @@ void run_it(const FmiDescription& d, const std::string& file) {
     const bool same = first[i] == second[i] || (std::isnan(first[i]) && std::isnan(second[i]));
     if (!same)
       fail("bad_fmu", file,
-           fmt::format("behind a reset its output \"{}\" is {} in place of {}", interface.outputs[i].port, second[i],
+           fmt::format("after a reset its output \"{}\" is {} instead of {}", interface.outputs[i].port, second[i],
                        first[i]),
-           "tell whoever made it that its reset does not lead back to the start");
+           "report to its maker that its reset does not restore the initial state");
   }
 }
 

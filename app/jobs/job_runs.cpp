@@ -63,7 +63,7 @@ JobRunner& JobPool::job(const std::string& file) {
   const std::lock_guard lock(mutex_);
   if (const auto found = jobs_.find(identity); found != jobs_.end()) return *found->second;
   if (std::find(opening_.begin(), opening_.end(), identity) != opening_.end())
-    fail("circular", file, "jobs take runs of each other", "let one of them do the run itself");
+    fail("circular", file, "two jobs take runs from each other", "let one of them do the run itself");
   RunsJob job = read_runs_job(file, allowed_, full_);
   opening_.push_back(identity);
   for (const auto& run : job.runs)

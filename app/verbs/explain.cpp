@@ -208,7 +208,7 @@ class Explanation {
     for (const auto& rate : needed_rates(program_))
       rows.push_back({"d/dt " + program_.signals[at(rate.signal)].path, "for " + joined(rate.asked_by)});
     if (rows.empty())
-      say("none; nobody asks for one");
+      say("none is needed");
     else
       show({}, rows);
   }

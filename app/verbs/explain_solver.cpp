@@ -33,7 +33,7 @@ std::string why_not_exactly(const Program& program, SimulateOptions options) {
 std::string exact_because(const Program& program) {
   return program.sampled_blocks.empty()
              ? "every source is a recording, and no block changes its mode"
-             : "between instants nothing but recordings moves what remembers, and no block changes its mode";
+             : "between instants only recordings drive blocks with memory, and no block changes its mode";
 }
 
 std::string from_diagram(bool given) { return given ? "as the diagram says" : "default"; }

@@ -88,9 +88,7 @@ Subject without_diagram(const Arguments& arguments) {
   for (const auto* list : {&roles.inputs, &roles.outputs})
     for (const auto& name : *list) rename(subject.data, name, roles.name_of(name));
   subject.assumed.push_back(fmt::format(
-      "No diagram was named: judged with a gain and an offset from {} to {}{}. What an effect needs of a "
-      "diagram (a mass, a hysteresis) is not there, and whether an output is a sample late or early, or an "
-      "input held between its samples, was not looked for; name yours with --diagram.",
+      "No diagram was named: judged with a gain and an offset from {} to {}{}. Effects that need a block of the diagram (a mass, a hysteresis) were not considered, nor whether an output is a sample late or early, or an input held between its samples; name your diagram with --diagram.",
       fmt::join(roles.inputs, ", "), fmt::join(roles.outputs, ", "), guessed.empty() ? "" : " (told by the columns)"));
   return subject;
 }

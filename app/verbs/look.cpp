@@ -22,6 +22,7 @@
 #include "engine/diagram/stop.h"
 #include "io/data/same_rows.h"
 #include "io/files/atomic_file.h"
+#include "io/files/shell_word.h"
 #include "io/json/value_text.h"
 #include "report/pages/discover_facts.h"
 #include "report/pages/discover_page.h"
@@ -137,7 +138,7 @@ void give_experiment(Answer& answer, const Discovery& found, const std::string& 
   answer.closing = fmt::format("wrote {}: the experiment \"{}\". Measure {}\n", file, e->word, what_to_measure(*e));
   const auto faster = faster_than_recorded(*e);
   for (const auto& word : faster)
-    answer.closing += fmt::format("note: {}. See that drive and machine bear it.\n", word);
+    answer.closing += fmt::format("note: {}. Check that drive and machine can bear it.\n", word);
   answer.facts.set("experiment", Facts::object({{"file", file},
                                                 {"word", e->word},
                                                 {"what_to_do", e->text},
@@ -175,10 +176,11 @@ Wish read_wish(const Arguments& arguments, const Watch& watch) {
   wish.is_check = arguments.has("--check");
   const std::string how = arguments.has("--search") ? arguments.text("--search") : wish.is_check ? "steps" : "models";
   if (how != "steps" && how != "models")
-    fail("bad_command_line", "--search", json_quoted(how) + " is no way to search", "\"steps\" or \"models\"");
+    fail("bad_command_line", "--search", json_quoted(how) + " is no way to search",
+         "write --search=models or --search=steps");
   wish.by_models = how == "models";
   if (wish.by_models && wish.is_check)
-    fail("bad_command_line", "--search", "--check asks by steps: it holds all numbers of the model",
+    fail("bad_command_line", "--search", "--check always searches by steps, with all parameters of the model held",
          "leave out --search, or --check");
   if (settings.keeps_table && !wish.by_models)
     fail("bad_command_line", "--keep-table", "a search by steps has no table of models", "leave it out");
@@ -189,7 +191,7 @@ Wish read_wish(const Arguments& arguments, const Watch& watch) {
     fail("bad_command_line", "--within", fmt::format("\"{}\" leaves no time", arguments.text("--within")),
          "write a time such as --within=\"2 min\", or leave it out");
   if (wish.is_check && arguments.has("--within"))
-    fail("bad_command_line", "--within", "a check says that nothing is new only once everything was tried",
+    fail("bad_command_line", "--within", "a check can say that nothing is new only after everything was tried",
          "leave out --within, or --check");
   return wish;
 }
@@ -265,8 +267,9 @@ Answer look(const std::string& verb, const Arguments& arguments, const Watch& wa
                                 {arguments.text("diagram"), arguments.text("--data"), answer.folder},
                                 check ? &*check : nullptr);
   if (!inspected)
-    document.warnings.emplace_back(
-        "There was no time to inspect the data themselves: run \"hysteron inspect\" on them.");
+    document.warnings.push_back(
+        fmt::format("There was no time to inspect the recordings; do so: hysteron inspect {} --diagram {}",
+                    shell_word(arguments.text("--data")), shell_word(arguments.text("diagram"))));
   for (auto& warning : same_rows) document.warnings.push_back(std::move(warning));
   tell_end(document, arguments, stopped, found.broken_off);
   answer.facts = short_answer(found, check);
@@ -315,8 +318,7 @@ std::vector<OptionSpec> look_options() {
           {"--search", "HOW",
            "\"models\" (default): whole models by one score; \"steps\": one effect after the other, by rules", false,
            false},
-          {"--exact", "", "the numbers of the diagram that are not free are exact: other values are not tried", false,
-           false},
+          {"--exact", "", "take the parameters that are not free as exact: other values are not tried", false, false},
           options::effects(),
           options::threads("candidates"),
           {"--within", "TIME", "end after so long with what was found by then, e.g. \"2 min\"", false, false},

@@ -43,10 +43,10 @@ std::string rhythm(const Structure& s) {
   const double quarter = gaps[gaps.size() / 4], middle = gaps[gaps.size() / 2], rest = gaps[gaps.size() * 3 / 4];
   // Chance spreads the middle half over ln 3/ln 2 = 1.6 times the median; a tenth of that one is a rhythm.
   if (rest - quarter <= 0.1 * middle)
-    return fmt::format("The {} are periodic: the middle half begins {:.4g} .. {:.4g} s after the one before.", s.kind,
+    return fmt::format("The {} are periodic: half of the intervals between them are {:.4g} .. {:.4g} s.", s.kind,
                        quarter, rest);
   return fmt::format(
-      "The {} are not periodic: they begin {:.4g} .. {:.4g} s after each other, half of them within {:.4g} s.", s.kind,
+      "The {} are not periodic: the intervals between them are {:.4g} .. {:.4g} s, with a median of {:.4g} s.", s.kind,
       gaps.front(), gaps.back(), middle);
 }
 
@@ -62,26 +62,22 @@ std::string lasting(const Structure& s) {
 
 std::string follows(const Structure& s) {
   if (s.harmonic > 0)
-    return "It is a harmonic of the drive: the motion makes it, by a curve, a loop, friction or a limit, and nothing "
-           "from outside.";
+    return "It is a harmonic of the drive: it comes from the motion (a nonlinear characteristic, hysteresis, friction or a limit), not from outside.";
   if (s.kind == "line_in_time")
     return fmt::format(
-        "It repeats every {} in all recordings, whatever the inputs do; amplitude and phase were found in each.",
+        "It repeats every {} in all recordings, whatever the inputs do; amplitude and phase were fitted in each.",
         difference_text(s.period, s.unit));
   if (s.kind == "line_in_level")
     return fmt::format(
-        "It repeats every {} of {}: found on the recordings for fitting, it lies at the same levels in the others.",
+        "It repeats every {} of {}: fitted on the train recordings, it lies at the same levels in the others.",
         difference_text(s.period, s.unit), s.variable);
   if (s.kind == "kink_at_level" && s.passed_once_at > 0)
     return fmt::format(
-        "{} is passed once in each recording, about {:.3g} s after its start: whether it is that level or that time, "
-        "these "
-        "recordings cannot tell.",
+        "{} is passed only once in each recording, about {:.3g} s after its start, so these recordings cannot tell a cause at that level from one at that time.",
         level_text(s), s.passed_once_at);
   if (s.kind == "kink_at_level")
     return fmt::format(
-        "The step and the change of slope at {} were found on the recordings for fitting and hold in the others: they "
-        "belong to that level, not to a time.",
+        "The step and the change of slope at {} were fitted on the train recordings and hold in the others: they belong to that level, not to a time.",
         level_text(s));
   return s.has_threshold ? fmt::format("They happen at {}, whenever it is passed.", level_text(s)) : "";
 }
@@ -103,30 +99,22 @@ std::vector<std::string> structure_sentences(const Structure& s) {
 
 std::string what_to_record(const Structure* left) {
   if (left == nullptr)
-    return "Record longer, each input by itself, slow and fast, small and large and held, and beside them, as columns "
-           "of their "
-           "own, what else may act (temperature, load, supply): then it shows what the residual follows.";
+    return "Record longer, with each input moved by itself (slowly and fast, by small and large strokes, and held), and add columns for what else may act (temperature, load, supply voltage): then the residual can be seen to follow one of them.";
   if (left->harmonic > 0)
-    return "Record the same drive at a half and at a quarter of its amplitude, and at another frequency: how its "
-           "harmonics grow tells a curve, whose grow faster than the drive, from friction and a loop.";
+    return "Record the same drive at a half and at a quarter of its amplitude, and at another frequency: harmonics of a nonlinear characteristic grow faster than the drive, those of friction and hysteresis do not.";
   if (left->kind == "line_in_time")
     return fmt::format(
-        "Record once with every input held, for many times {}: a line that stays comes from outside or from "
-        "the sensor, one that goes is made by the motion.",
+        "Record once with every input held, for many periods of {}: a spectral line that stays comes from outside or from the sensor, one that vanishes comes from the motion.",
         difference_text(left->period, left->unit));
   if (left->kind == "line_in_level" || left->has_threshold) {
     const std::string across =
         left->has_threshold ? "across " + level_text(*left) : fmt::format("over the range of {}", left->variable);
     return fmt::format(
-        "Record slow and fast runs {}, both ways and several times each: what belongs to the level stays there "
-        "at every speed, and whether it does so both ways tells a law without memory from one with.",
+        "Record slow and fast runs {}, in both directions and several times each: what belongs to the level stays there at every speed, and if it differs between the directions it has memory (hysteresis).",
         across);
   }
   return fmt::format(
-      "Record once with every input held, as long as the longest recording: {} that go on are not made by the inputs. "
-      "And record beside them, as columns of their own, what may act at such times (temperature, load, supply, a "
-      "change of "
-      "range): a column that is bound to nothing is looked at, too.",
+      "Record once with every input held, as long as the longest recording: {} that go on do not come from the inputs. Add columns for what may act at such times (temperature, load, supply voltage, a change of range): columns that the diagram does not use are examined, too.",
       left->kind);
 }
 

@@ -127,7 +127,7 @@ std::string names_of(const FoundStep& s) {
 void tell_noise(Discovery& d) {
   for (const auto& n : d.noise)
     if (!n.remark.empty())
-      d.warnings.push_back(fmt::format("{}: {}; {} rms was used", n.output, n.remark, size_text(n.white, n.unit)));
+      d.warnings.push_back(fmt::format("{}: {}; {} rms is used", n.output, n.remark, size_text(n.white, n.unit)));
 }
 
 }  // namespace
@@ -255,26 +255,24 @@ std::string headline_of(const Discovery& d) {
   const std::string fall = error_fall(d.base, d.final_error);
   const std::string asked =
       d.asked_for.empty() ? "" : fmt::format(" of those asked for ({})", fmt::join(d.asked_for, ", "));
-  const std::string tried = asked + (d.broken_off ? " that was tried until the search was broken off" : "");
+  const std::string tried = asked + (d.broken_off ? " that was tried before the search was stopped" : "");
   switch (d.verdict) {
     case Verdict::adequate:
       return fmt::format(
-          "Adequate: what the model leaves ({}) is the noise of the recordings, and no effect{} improves it by "
-          "more than chance.",
+          "Adequate: the residual ({}) is the noise of the recordings, and no effect{} reduces it by more than chance.",
           left_text(d.base), tried);
     case Verdict::missing_effect:
       return fmt::format("Missing: {}. The {}.", fmt::join(names, ", then "), fall);
     case Verdict::not_distinguishable:
-      return fmt::format("Something is missing, and these recordings cannot tell what: {}. With {} the {}.",
+      return fmt::format("Something is missing, and these recordings cannot tell which: {}. With {} the {}.",
                          fmt::join(names, "; "), d.steps.front().winner.effect, fall);
     case Verdict::unexplained:
       break;
   }
   if (d.structure)
-    return fmt::format("Unexplained: {}, and no known effect{} takes it away.", d.structure->sentence, tried);
+    return fmt::format("Unexplained: {}, and no known effect{} explains it.", d.structure->sentence, tried);
   return fmt::format(
-      "Unexplained: the residual on validation recordings is {:.2g} times the noise, and no known effect{} takes it "
-      "away.",
+      "Unexplained: the residual on validation recordings is {:.2g} times the noise, and no known effect{} explains it.",
       std::sqrt(std::max(d.base.over_floor(), 0.0)), tried);
 }
 
@@ -289,11 +287,11 @@ std::string other_numbers(const Discovery& d) {
   constexpr std::size_t named = 3;
   std::vector<std::string> list;
   for (std::size_t i = 0; i < std::min(named, d.other_numbers.size()); ++i)
-    list.push_back(fmt::format("{} is {} than written", d.other_numbers[i].path, further(d.other_numbers[i])));
+    list.push_back(fmt::format("{} is {} than in the diagram", d.other_numbers[i].path, further(d.other_numbers[i])));
   if (d.other_numbers.size() > named) list.push_back(fmt::format("{} more", d.other_numbers.size() - named));
   const std::string fall =  // beside effects, numbers alone are a fit to what these do
       d.steps.empty() ? fmt::format("With them the {}. ", error_fall(d.as_given, d.base)) : "";
-  return fmt::format("Numbers of the model are not those of the device: {}. {}", fmt::join(list, ", "), fall);
+  return fmt::format("Parameters of the model differ from those of the device: {}. {}", fmt::join(list, ", "), fall);
 }
 
 /// Each of them, and what to do.
@@ -302,15 +300,12 @@ void tell_numbers(Discovery& d) {
   for (const auto& n : d.other_numbers) {
     const auto shown = [&](double si) { return n.difference ? n.unit.difference_from_si(si) : n.unit.from_si(si); };
     const double sigma = n.unit.difference_from_si(n.sigma);
-    d.sentences.push_back(fmt::format("{} is {:.5g} +- {:.2g}{}{} ({} than the {:.5g} written)", n.path, shown(n.found),
-                                      2 * sigma, n.unit.text.empty() ? "" : " ", n.unit.text, further(n),
-                                      shown(n.written)));
+    d.sentences.push_back(fmt::format("{} is {:.5g} +- {:.2g}{}{} (95 %), {} than {:.5g} in the diagram", n.path,
+                                      shown(n.found), 2 * sigma, n.unit.text.empty() ? "" : " ", n.unit.text,
+                                      further(n), shown(n.written)));
   }
   d.sentences.push_back(
-      "No smaller set of numbers explains as much as all of them together (another number of the same influence, such "
-      "as a spring for a force, would do as well). With the numbers as written, an effect might be named that only makes "
-      "up for them. Mark in the diagram those that are uncertain (\"free\": true); where all are exact, say so with "
-      "--exact.");
+      "No smaller set of parameters explains as much as these together (another parameter with the same influence, such as a stiffness in place of a force, would do as well). With the values in the diagram an effect might be named that only compensates for them. Mark in the diagram those that are uncertain (\"free\": true); where all are exact, use --exact.");
 }
 
 /// What was found and what is left of it; of what nothing explains all that is known.
@@ -318,18 +313,18 @@ void tell_what_is_left(Discovery& d) {
   auto& say = d.sentences;
   for (const auto& s : d.steps) say.push_back(s.sentence);
   if (d.verdict == Verdict::unexplained)
-    say.push_back(fmt::format("The model leaves {} on recordings not used for the fit{}.", left_text(d.final_error),
-                              d.structure ? "" : ", and no line, ripple, kink, jumps or bursts stand out of it"));
+    say.push_back(fmt::format("The residual on recordings not used for the fit is {}{}.", left_text(d.final_error),
+                              d.structure ? "" : ", without a spectral line, ripple, kink, jumps or bursts"));
   else if (!d.steps.empty())
     say.push_back(d.remainder == Remainder::noise
-                      ? fmt::format("What is left ({}) is noise.", left_text(d.final_error))
-                      : fmt::format("What is left ({}) still has structure: {:.2g} times the noise.",
+                      ? fmt::format("The remaining residual ({}) is noise.", left_text(d.final_error))
+                      : fmt::format("The remaining residual ({}) still has structure: {:.2g} times the noise.",
                                     left_text(d.final_error), std::sqrt(std::max(d.final_error.over_floor(), 0.0))));
   for (const auto& r : d.refused)
     if (std::find(d.asked_for.begin(), d.asked_for.end(), r.effect) != d.asked_for.end())
       say.push_back(
           fmt::format("{}{} was not tried: {}.", r.effect, r.place.empty() ? "" : " at " + r.place, r.reason));
-  if (!d.steps.empty() && d.structure) say.push_back("In what is left " + d.structure->sentence + ".");
+  if (!d.steps.empty() && d.structure) say.push_back("In the remaining residual " + d.structure->sentence + ".");
   if (d.structure)
     for (auto& sentence : structure_sentences(*d.structure)) say.push_back(std::move(sentence));
 }
@@ -346,8 +341,8 @@ void tell_limits(Discovery& d) {
     list.push_back(fmt::format("{} at {}: {}", largest[i]->effect, largest[i]->place,
                                largest[i]->at_most.substr(0, largest[i]->at_most.find(';'))));
   d.sentences.push_back(
-      fmt::format("Looked for and not found, and at most so large (95 %): {}{}.", fmt::join(list, "; "),
-                  largest.size() > named ? fmt::format("; {} more stand in the report", largest.size() - named) : ""));
+      fmt::format("Not found, with upper limits (95 %): {}{}.", fmt::join(list, "; "),
+                  largest.size() > named ? fmt::format("; {} more in the report", largest.size() - named) : ""));
 }
 
 }  // namespace
@@ -362,16 +357,14 @@ void put_into_words(Discovery& d, const DataSet& data) {
     d.sentences.push_back(
         fmt::format("To tell {} apart, record {}: {}. The two models differ there by {:.3g} times the noise.{}",
                     d.experiment->between, d.experiment->word, d.experiment->text, d.experiment->separation,
-                    d.experiment->another_instrument ? " Without that, no drive of this bench tells them apart." : ""));
+                    d.experiment->another_instrument ? " Without it no input signal tells them apart." : ""));
   if (d.verdict == Verdict::unexplained) d.sentences.push_back(what_to_record(d.structure ? &*d.structure : nullptr));
   if (data.single)
     d.warnings.push_back(
-        "One recording only: its first 60 % trained, the rest judged. That is weak evidence; a second recording with "
-        "another amplitude or frequency would be the best addition.");
+        "One recording only: its first 60 % was fitted, the rest judged. That is weak evidence; add a second recording with another amplitude or frequency.");
   if (d.verdict == Verdict::adequate && d.base.nrmse_validate > 0.9)
     d.warnings.push_back(
-        "The measured output hardly moves beyond its noise in the validation recordings: little could have been "
-        "found.");
+        "The measured output hardly moves beyond its noise in the validation recordings: few effects can be found in them.");
   tell_noise(d);
 }
 

@@ -242,9 +242,7 @@ std::vector<Beginning> begin_elsewhere(const DataModel& model, const NoiseModel&
 
 std::string to_text(const DataModel& model, const Beginning& b) {
   return fmt::format(
-      "{} does not begin at rest, where the model is started: what is left of {} in its first {} is the model's own "
-      "answer to another start, {} rms, and takes {:.0f} of chi2 away there (in no other window of that length more "
-      "than {:.0f}). Say \"initial\": \"per_recording\" of it in the data set, or \"skip\" those first {}",
+      "{} does not begin at rest, as the simulation does: the residual of {} in its first {} is a free response of the model from other initial states, {} rms, which explains {:.0f} of chi2 there (in no other window of that length more than {:.0f}). Write \"initial\": \"per_recording\" at this recording in the data set, or \"skip\" its first {}",
       model.recording(b.recording).name, model.outputs()[static_cast<std::size_t>(b.output)], time_text(b.lasts),
       size_text(b.rms, model.output_unit(b.output)), b.fall, b.elsewhere, time_text(b.lasts));
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/diagram/name_list.h"
 #include "fit/numerics/dense.h"
 
 namespace hysteron {
@@ -46,12 +47,12 @@ std::vector<Vector> sparse_basis(const Dense& v, std::size_t first) {
 }
 
 std::string sentence_for(const std::vector<std::string>& paths, const std::vector<double>& direction) {
-  if (paths.size() == 1) return fmt::format("{} changes nothing in these recordings: no value", paths.front());
+  if (paths.size() == 1) return fmt::format("{} has no influence in these recordings: no value", paths.front());
   std::vector<std::string> moves;
   for (std::size_t i = 0; i < paths.size(); ++i)
     moves.push_back(fmt::format("{} by {:+.2g} %", paths[i], direction[i]));
   return fmt::format("only a combination of {} is determined: changing {} leaves the fit as it is; no value for either",
-                     fmt::join(paths, ", "), fmt::join(moves, " and "));
+                     name_list(paths), fmt::join(moves, " and "));
 }
 
 class Analysis {
@@ -235,7 +236,7 @@ class Analysis {
       moves.push_back(fmt::format("{:+.2g} %", 100 * change[i]));
     }
     if (hang_together)
-      result_.remarks.push_back(fmt::format("{} are hardly told apart: moved together by {} they fit as well",
+      result_.remarks.push_back(fmt::format("{} are strongly correlated: changed together by {} they fit as well",
                                             fmt::join(paths, ", "), fmt::join(moves, ", ")));
   }
 

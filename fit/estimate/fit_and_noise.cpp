@@ -53,9 +53,7 @@ FitWithNoise fit_again(DataModel& model, const std::vector<FreeParameter>& free,
   result.starts += first.starts;
   if (structured)
     result.remarks.emplace_back(
-        "what is left is slower than a sensor's noise: much of it may be what the model lacks (hysteron diagnose looks "
-        "for "
-        "it). The intervals allow for it as if it came by chance");
+        "the residual is slower than sensor noise: much of it may be what the model lacks (hysteron diagnose looks for it). The intervals treat it as if it were random");
   result.runs += first.runs;
   result.failed_runs += first.failed_runs;
   result.iterations += first.iterations;

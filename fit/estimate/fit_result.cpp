@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "engine/diagram/name_list.h"
 #include "fit/estimate/curvature.h"
 #include "fit/estimate/determined.h"
 #include "fit/estimate/fitting.h"
@@ -181,7 +182,7 @@ const Profile& Fitting::profile(int which, double fraction) {
   const Profile& made = profiles_[which] = profile_of(task, which, e.sigma.value_or(0), better);
   if (!better.empty())
     result_.remarks.push_back(fmt::format(
-        "the profile of {} met a better fit than the result: begin from other values, or from more starts", e.path));
+        "the profile of {} passed a better fit than the result: start from other values, or use --starts 50", e.path));
   return made;
 }
 
@@ -213,8 +214,8 @@ void Fitting::bend_intervals() {
   std::vector<std::string> paths;
   for (const int i : curved) paths.push_back(result_.estimates[static_cast<std::size_t>(i)].path);
   if (!model_.why_not_exact().empty() || !(steps_of_profiles(curved.size()) <= options_.profile_steps)) {
-    result_.remarks.push_back(fmt::format(
-        "the model is not linear over the intervals of {}: follow them with --profile", fmt::join(paths, ", ")));
+    result_.remarks.push_back(
+        fmt::format("the model is not linear over the intervals of {}: follow them with --profile", name_list(paths)));
     return;
   }
   for (std::size_t n = 0; n < curved.size(); ++n) {
@@ -222,8 +223,8 @@ void Fitting::bend_intervals() {
     if (!go_on("profile", fraction)) return;
     take_interval(curved[n], profile(curved[n], fraction));
   }
-  result_.remarks.push_back(fmt::format(
-      "the model is not linear over the intervals of {}: they are taken from profiles", fmt::join(paths, ", ")));
+  result_.remarks.push_back(
+      fmt::format("the model is not linear over the intervals of {}: they are taken from profiles", name_list(paths)));
 }
 
 /// An open end reaches to the bound; what is open on both sides, or without a bound there, has no value.
@@ -236,12 +237,11 @@ void Fitting::take_interval(int which, const Profile& from) {
   result_.undetermined.push_back(
       {{e.path},
        {1.0},
-       fmt::format(
-           "{} has no value: with the other parameters fitted again it can be moved {} and the fit stays as good",
-           e.path,
-           from.low95    ? "up as far as one likes"
-           : from.high95 ? "down as far as one likes"
-                         : "over all that its bounds allow")});
+       fmt::format("{} has no value: with the other parameters fitted again it can be changed {} without a worse fit",
+                   e.path,
+                   from.low95    ? "upwards without limit"
+                   : from.high95 ? "downwards without limit"
+                                 : "over the whole range of its bounds")});
   e.determined = false;
   e.value.reset();
   e.sigma.reset();
@@ -342,8 +342,7 @@ void Fitting::finish() {
   if (result_.stopped) result_.convergence = "stopped; the best so far";
   if (result_.chi2 > 3 * result_.n)
     result_.remarks.push_back(
-        "the residual is far above the noise and not random: the intervals say how sure the numbers are "
-        "within this model, not that the model is right");
+        "the residual is far above the noise and not random: the intervals hold within this model and do not say that the model is right");
 }
 
 }  // namespace hysteron

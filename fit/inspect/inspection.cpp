@@ -168,11 +168,11 @@ class Inspector {
       const std::string stays =
           fmt::format("{} never moves: it is {} in every row", c.name, level_text(c.lowest, c.unit));
       if (c.role == "output")
-        seen_.faults.push_back(stays +
-                               ". Nothing can be judged by it: see whether the sensor was connected, and whether "
-                               "this is the column that was meant.");
+        seen_.faults.push_back(
+            stays +
+            ". Nothing can be judged by it: check that the sensor was connected and that this is the right column.");
       else
-        seen_.notes.push_back(stays + ". What it does cannot be told from these recordings.");
+        seen_.notes.push_back(stays + ". Its influence cannot be found from these recordings.");
     }
   }
 
@@ -187,7 +187,7 @@ class Inspector {
       if (c.role == "output" && c.finest > 0 && (c.highest - c.lowest) / c.finest < few_levels &&
           c.roughness < c.finest)
         seen_.notes.push_back(fmt::format(
-            "{} has {} levels only, {} apart: nothing finer can be seen, and noise of at least {} rms is in it.",
+            "{} has only {} levels, {} apart: that is its resolution, and quantization adds at least {} rms of noise.",
             c.name, std::lround((c.highest - c.lowest) / c.finest) + 1, size_text(c.finest, c.unit),
             size_text(c.finest / std::sqrt(12.0), c.unit)));
     }
@@ -304,8 +304,7 @@ class Inspector {
     }
     for (const auto& line : seen_.lines)
       seen_.notes.push_back(fmt::format(
-          "{} carries a line at {:.6g} Hz of {} (amplitude, in {}) that no input makes: interference, or its alias "
-          "where the rows are further apart than half its period.",
+          "{} has a spectral line at {:.6g} Hz with an amplitude of {} (in {}) that no input causes: interference, or its alias if it is above half the sample rate.",
           line.output, line.frequency, size_text(line.amplitude, line.unit), list_text(line.recordings)));
   }
   static void add_line(std::vector<InspectedLine>& found, const InspectedLine& line, double width) {

@@ -124,8 +124,7 @@ std::string note_of_reach(const Inspection& seen, const std::string& input) {
   });
   if (names.empty()) return "";
   return fmt::format(
-      "{} {} {} over {}, the recordings that are fitted only over {}: what a model says beyond is extrapolated. Where "
-      "that range matters, let a recording of it train.",
+      "{} {} {} over {}, the train recordings only over {}: beyond that the model is extrapolated. If that range matters, give a recording of it the role \"train\".",
       list_text(names), names.size() == 1 ? "moves" : "move", input,
       range_text(beyond.lowest, beyond.highest, fitted.unit), range_text(fitted.lowest, fitted.highest, fitted.unit));
 }

@@ -87,16 +87,14 @@ class RowFaults {
       for (const auto row : stuck) ++repeated[row];
       if (const auto leaps = judged_rows(part, leaps_in_motion(rows, c.finest)); c.role == "input" && !leaps.empty())
         seen_.faults.push_back(fmt::format(
-            "{}: {} leaps at {} by twice its pace and more, the first at {}: rows before them may be lost though the "
-            "clock does not show it.",
+            "{}: {} jumps at {} by at least twice its usual change, the first at {}: rows before them may be lost although the clock does not show it.",
             part.name, c.name, count_of(leaps.size(), "row"), when(part, leaps.front())));
       if (c.role == "output")
         if (const long more = unexplained_repeats(judged_of(model_.data(), part, c.name), c.finest); more > 0)
-          seen_.faults.push_back(
-              fmt::format("{}: at about {} ({}) {} repeats the value before exactly, more often than "
-                          "its noise explains: those readings were not fetched anew.",
-                          part.name, count_of(static_cast<std::size_t>(more), "row"),
-                          share_text(static_cast<double>(more) / static_cast<double>(rows.size())), c.name));
+          seen_.faults.push_back(fmt::format(
+              "{}: at about {} ({}) {} repeats the value before exactly, more often than its noise explains: those readings were not updated.",
+              part.name, count_of(static_cast<std::size_t>(more), "row"),
+              share_text(static_cast<double>(more) / static_cast<double>(rows.size())), c.name));
     }
     std::vector<std::size_t> whole;
     for (const auto& [row, columns] : repeated)
@@ -126,8 +124,7 @@ class RowFaults {
     if (lone.empty()) return;
     const std::size_t i = lone.front();
     seen_.spoiling.push_back(fmt::format(
-        "{}: {} of {} far from all others, the first at {} with {}, between {} and {}: an error of transmission, which "
-        "decides all that is fitted or judged there. Take {} out of the file.",
+        "{}: {} of {} far from all others, the first at {} with {}, between {} and {}: a transmission error that dominates every fit and verdict there. Remove {} from the file.",
         part.name, count_of(lone.size(), "row"), output + (lone.size() == 1 ? " lies" : " lie"), when(part, i),
         level_text(rows[i], column(output).unit), level_text(rows[i > 0 ? i - 1 : i + 1], column(output).unit),
         level_text(rows[i + 1 < rows.size() ? i + 1 : i - 1], column(output).unit), lone.size() == 1 ? "it" : "them"));

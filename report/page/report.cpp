@@ -62,11 +62,11 @@ VerdictWords verdict_html(const std::string& verdict) {
   static const std::map<std::string, std::pair<const char*, const char*>> words{
       {"adequate",
        {"adequate",
-        "Only noise is left: no structure remains, and no effect improves other recordings by more than chance."}},
+        "The residual is noise: no structure remains, and no effect reduces the error of other recordings by more than chance."}},
       {"missing_effect", {"missing effect", "The model lacks a physical effect; it is named here, with its evidence."}},
       {"not_distinguishable",
        {"not distinguishable", "Something is missing, and several effects explain these data equally well."}},
-      {"unexplained", {"unexplained", "Structure remains that no known effect takes away."}}};
+      {"unexplained", {"unexplained", "Structure remains in the residual that no known effect explains."}}};
   if (verdict.empty()) return {};
   const auto found = words.find(verdict);
   const bool known = found != words.end();

@@ -75,7 +75,7 @@ Section parameters_section(const Seen& seen) {
   const auto& last = seen.found.steps.empty() ? seen.found.base_parameters : seen.found.steps.back().winner.found;
   for (const auto& p : last) add(p);
   if (table.rows.empty())
-    section.text.emplace_back("Nothing was free.");
+    section.text.emplace_back("No parameter was free.");
   else
     section.tables.push_back(std::move(table));
   return section;
@@ -85,8 +85,8 @@ Section parameters_section(const Seen& seen) {
 Table structures_table(const Discovery& found) {
   Table table;
   table.title = "Structures that no effect describes";
-  table.columns = {"structure", "over",   "output", "left by", "counted on",
-                   "chi2 fall", "needed", "share",  "told",    "why"};
+  table.columns = {"structure", "over",   "output", "residual of", "judged on",
+                   "chi2 fall", "needed", "share",  "named",       "why"};
   for (const auto& s : found.structures)
     table.rows.push_back({s.structure.kind, s.structure.variable, s.structure.output,
                           s.left_by == LeftBy::effects ? "the effects" : "the base model",
@@ -104,9 +104,9 @@ Section candidates_section(const Seen& seen) {
   const bool with_falls = std::any_of(candidates.begin(), candidates.end(),
                                       [](const auto& c) { return c.fall_train != 0 || c.fall_validate != 0; });
   section.text.push_back(fmt::format(
-      "Each candidate was fitted, together with everything that was free, on the train recordings. {}The score is chi2 "
+      "Each candidate was fitted on the train recordings, together with all free parameters. {}The score is chi2 "
       "on train and validate plus p ln N; lower is better.",
-      with_falls ? "The fall of chi2 is counted in units of the noise: chance alone reaches a few. " : ""));
+      with_falls ? "The fall of chi2 is in units of the noise variance; chance alone reaches a few units. " : ""));
   Table table;
   table.columns = {"step", "effect", "law", "place", "p"};
   if (with_falls) table.columns.insert(table.columns.end(), {"chi2 fall, train", "chi2 fall, validate"});
@@ -187,8 +187,8 @@ Section data_section(const Discovery& found, const Inspected& inspected) {
   Section section = inspection_section(inspected);
   section.text.insert(section.text.end(), found.data_remarks.begin(), found.data_remarks.end());
   Table table;
-  table.title = "Noise, as it was judged";
-  table.columns = {"output", "white noise, rms", "1/f share", "from", "remark"};
+  table.title = "Noise of the outputs";
+  table.columns = {"output", "white noise, rms", "1/f share", "origin", "remark"};
   for (const auto& n : found.noise)
     table.rows.push_back(
         {n.output, difference_text(n.white, n.unit), number_text(n.one_over_f, 3), n.origin, n.remark});
@@ -216,21 +216,21 @@ Section next_section(const Discovery& found) {
       untold.push_back(names_of(found.steps, i));
   if (found.experiment)
     section.text.push_back(
-        fmt::format("{}: {}{} It would set {} apart by {} times the noise.{}", found.experiment->word,
+        fmt::format("{}: {}{} It would tell {} apart by {} times the noise.{}", found.experiment->word,
                     found.experiment->text, found.experiment->text.ends_with('.') ? "" : ".", found.experiment->between,
                     number_text(found.experiment->separation, 3),
-                    found.experiment->another_instrument ? " Without that, no drive of this bench does." : ""));
+                    found.experiment->another_instrument ? " Without it no input signal does." : ""));
   for (const auto& names : untold)
-    section.text.push_back(fmt::format("No experiment that was simulated sets {} apart.", names));
+    section.text.push_back(fmt::format("No simulated experiment tells {} apart.", names));
   for (const auto& s : found.steps)
     if (!s.winner.same_effects.empty())
       section.text.push_back(
-          fmt::format("{} and {} are one finding in these recordings: see what tells them apart at the "
-                      "step above.",
+          fmt::format("{} and {} look the same in these recordings; the step above names what tells them apart.",
                       s.winner.effect, fmt::join(s.winner.same_effects, ", ")));
   if (found.structure || found.verdict == Verdict::unexplained)
     section.text.push_back(what_to_record(found.structure ? &*found.structure : nullptr));
-  if (section.text.empty()) section.text.emplace_back("No experiment is needed to separate what was found.");
+  if (section.text.empty())
+    section.text.emplace_back("No further experiment is needed: nothing else explains these recordings as well.");
   return section;
 }
 

@@ -130,17 +130,17 @@ std::string risen_text(const DataModel& model, const Fitted& fitted) {
                                 difference_text(before->rms, unit), difference_text(after->rms, unit)));
   }
   if (risen.empty()) return "";
-  const std::string what = fmt::format("The rms of the train recordings has risen, {}", fmt::join(risen, ", "));
+  const std::string what = fmt::format("The rms error of the train recordings has risen, {}", fmt::join(risen, ", "));
   if (!fitted.by_search)
     return fmt::format("{}: method {} does not minimize it. Compare with --method search.", what, fitted.result.method);
   if (!(fitted.weighed_after < fitted.weighed_before))
     return what +
-           ", and so has the error as the fit weighs it: the start was better. Try --starts 50, or other bounds.";
+           ", and so has the weighted error that the fit minimizes: the start was better. Try --starts 50, or other bounds.";
   std::string why = fmt::format(
       "{}. The fit minimizes another sum: each residual over its noise, where slow errors count less than fast ones as "
       "far as the noise is 1/f, and outputs count by their noise. That error fell from {} to {} of the noise.",
       what, percent_text(fitted.weighed_before), percent_text(fitted.weighed_after));
-  return why + " Where every row shall count alike, state the noise in the data set with \"one_over_f\": 0.";
+  return why + " To give every row the same weight, state the noise in the data set with \"one_over_f\": 0.";
 }
 
 Table noise_table(const DataModel& model, const NoiseModel& noise) {
@@ -194,9 +194,7 @@ Section profile_section(const DataModel& model, const FitResult& result) {
   Section section;
   section.title = "Profiles";
   section.text.emplace_back(
-      "Each parameter held at values around the result, all others fitted again. Where chi2 has risen by 3.84 times "
-      "its "
-      "own scale the 95 % interval ends; a curve that does not reach it has an open end.");
+      "Each parameter was held at values around the result and all others were fitted again. The 95 % interval ends where chi2 has risen by 3.84 times its scale; a curve that does not reach that has an open end.");
   Table table;
   table.columns = {"parameter", "95 % by profile", "95 % by standard deviation"};
   for (const auto& p : result.profiles) {
@@ -311,7 +309,7 @@ void add_sections(Document& document, const DataModel& model, const Fitted& fitt
 
   const Beside view{&model, &fitted.after, &fitted.before};
   Section residuals;
-  residuals.title = "What is left, against level, branch and rate";
+  residuals.title = "Residual against level, branch and rate";
   add_residual_figures(residuals, view, judged_recordings(model));
   add_split_figures(residuals, model, fitted.after);
   document.sections.push_back(std::move(residuals));

@@ -23,7 +23,7 @@ std::string clock_text(const Clock& clock) {
 Table columns_table(const Inspection& data) {
   Table table;
   table.title = "Columns";
-  table.columns = {"column", "is", "unit", "lowest", "highest", "finest step", "roughness, rms"};
+  table.columns = {"column", "is", "unit", "lowest", "highest", "finest step", "scatter, rms"};
   for (const auto& c : data.columns)
     table.rows.push_back({c.name, c.role, unit_text(c.unit).empty() ? "1" : unit_text(c.unit),
                           quantity_text(c.lowest, c.unit), quantity_text(c.highest, c.unit),
@@ -35,8 +35,8 @@ Table columns_table(const Inspection& data) {
 Table recordings_table(const Inspection& data) {
   Table table;
   table.title = "Recordings";
-  table.columns = {"recording", "role",      "rows",  "duration",    "between rows", "input",
-                   "range",     "band [Hz]", "turns", "swing sizes", "longest hold", "periods"};
+  table.columns = {"recording", "role",      "rows",  "duration",     "sampling interval", "input",
+                   "range",     "band [Hz]", "turns", "stroke sizes", "longest hold",      "periods"};
   for (const auto& r : data.recordings) {
     const std::vector<std::string> head{r.name, to_text(r.role), std::to_string(r.rows), time_text(r.duration),
                                         clock_text(r.clock)};
@@ -63,7 +63,7 @@ Table recordings_table(const Inspection& data) {
 Table repeats_table(const Inspection& data) {
   Table table;
   table.title = "What was recorded twice";
-  table.columns = {"output", "what", "rows", "repeats to, rms", "without the offset"};
+  table.columns = {"output", "what", "rows", "repeatability, rms", "without the offset"};
   constexpr std::size_t shown = 12;
   for (const auto& r : data.repeats)
     if (table.rows.size() < shown)

@@ -58,12 +58,12 @@ TEST(Words, OfEffectsThatWereNotAskedForNothingIsSaid) {
   d.refused.push_back({"mains_interference", "sensor", "no recording is sampled above 120 Hz"});
   d.refused.push_back({"creep", "stage", "no hold"});
   put_into_words(d, DataSet{});
-  EXPECT_NE(d.headline.find("no known effect takes it away"), std::string::npos) << d.headline;
+  EXPECT_NE(d.headline.find("no known effect explains it"), std::string::npos) << d.headline;
   EXPECT_EQ(all_of(d.sentences).find("was not tried"), std::string::npos);
   d.asked_for = {"mains_interference"};
   d.sentences.clear();
   put_into_words(d, DataSet{});
-  EXPECT_NE(d.headline.find("no known effect of those asked for (mains_interference) takes it away"), std::string::npos)
+  EXPECT_NE(d.headline.find("no known effect of those asked for (mains_interference) explains it"), std::string::npos)
       << d.headline;
   EXPECT_NE(
       all_of(d.sentences).find("mains_interference at sensor was not tried: no recording is sampled above 120 Hz."),
@@ -101,7 +101,7 @@ TEST(Words, EachOutputIsToldInItsOwnUnit) {
   d.final_error = errors_of({error_of("y", "um", 0.01), error_of("s", "mm/s", 0.02)});
   put_into_words(d, {});
   EXPECT_NE(d.headline.find("(y: 0.03 um -> 0.01 um, s: 0.06 mm/s -> 0.02 mm/s)"), std::string::npos) << d.headline;
-  EXPECT_NE(all_of(d.sentences).find("What is left (y 0.01 um, s 0.02 mm/s, "), std::string::npos)
+  EXPECT_NE(all_of(d.sentences).find("The remaining residual (y 0.01 um, s 0.02 mm/s, "), std::string::npos)
       << all_of(d.sentences);
 }
 
@@ -175,10 +175,12 @@ Structure jumps_at(const std::vector<double>& times) {
 TEST(Words, OfJumpsItIsToldWhereMostAreAndHowPeriodicTheyAre) {
   const std::string regular = all_of(structure_sentences(jumps_at({1, 1.4, 1.8, 2.2, 2.6, 3, 3.4})));
   EXPECT_NE(regular.find("Of 8 jumps most are in 08.csv: 7, the first at 1 s, the last at 3.4 s."), std::string::npos);
-  EXPECT_NE(regular.find("The jumps are periodic: the middle half begins 0.4 .. 0.4 s after"), std::string::npos)
+  EXPECT_NE(regular.find("The jumps are periodic: half of the intervals between them are 0.4 .. 0.4 s"),
+            std::string::npos)
       << regular;
   const std::string any = all_of(structure_sentences(jumps_at({1, 1.1, 1.4, 2.4, 2.6, 3.4, 5.4})));
-  EXPECT_NE(any.find("The jumps are not periodic: they begin 0.1 .. 2 s after each other"), std::string::npos) << any;
+  EXPECT_NE(any.find("The jumps are not periodic: the intervals between them are 0.1 .. 2 s"), std::string::npos)
+      << any;
   EXPECT_EQ(all_of(structure_sentences(jumps_at({1, 2}))).find("periodic"), std::string::npos)
       << "one gap is no rhythm";
 }
@@ -188,7 +190,8 @@ TEST(Words, WhatNothingExplainsIsToldInSentencesWithWhatToRecord) {
   d.verdict = Verdict::unexplained;
   d.final_error = d.base = errors_of({error_of("y", "um", 0.03)});
   put_into_words(d, {});
-  EXPECT_NE(all_of(d.sentences).find("The model leaves 0.03 um"), std::string::npos) << all_of(d.sentences);
+  EXPECT_NE(all_of(d.sentences).find("The residual on recordings not used for the fit is 0.03 um"), std::string::npos)
+      << all_of(d.sentences);
   EXPECT_NE(all_of(d.sentences).find("Record longer"), std::string::npos) << all_of(d.sentences);
   d.sentences.clear();
   d.structure = jumps_at({1, 1.1, 1.4, 2.4, 2.6, 3.4, 5.4});

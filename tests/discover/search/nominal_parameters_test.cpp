@@ -98,7 +98,7 @@ TEST_F(OwnNumbers, WeightsThatAreOffAreToldAndNoEffectMakesUpForThem) {
     EXPECT_NEAR(n.found, truth, 4 * n.sigma) << n.path;
     EXPECT_LT(n.sigma, 5e-4) << n.path;
   }
-  EXPECT_NE(d.headline.find("stage.weights[0] is 2 % more than written"), std::string::npos) << d.headline;
+  EXPECT_NE(d.headline.find("stage.weights[0] is 2 % more than in the diagram"), std::string::npos) << d.headline;
   EXPECT_NE(d.headline.find("Adequate"), std::string::npos) << d.headline;
   EXPECT_LT(d.base.rms_validate, 1.05 * nominal_noise);
   EXPECT_GT(d.as_given.rms_validate, 5 * nominal_noise) << "what the user has is told, too";

@@ -333,7 +333,7 @@ TEST_F(Rules, WhatOnlyAnotherSensorTellsAfterManyRecordingsIsMissingUnderEitherN
     EXPECT_EQ(d.experiment->word, "reference_sensor") << "told in either case";
     EXPECT_EQ(to_text(d.verdict), n == 2 ? "not_distinguishable" : "missing_effect") << d.headline;
     const bool said = std::any_of(d.sentences.begin(), d.sentences.end(), [](const std::string& s) {
-      return s.find("no drive of this bench tells them apart") != std::string::npos;
+      return s.find("no input signal tells them apart") != std::string::npos;
     });
     EXPECT_EQ(said, n > 2);
   }

@@ -102,7 +102,7 @@ TEST_F(Limited, ALimitIsWhatTheRowsTell) {
   const double sigma = 2 * of_the_sensor / std::sqrt(1000.0);
   EXPECT_GT(d.limits[0].value, 1.0 * sigma);  // from a = 0 on 1.645, and a may be some of it
   EXPECT_LT(d.limits[0].value, 5.0 * sigma);
-  EXPECT_NE(d.sentences.back().find("Looked for and not found"), std::string::npos);
+  EXPECT_NE(d.sentences.back().find("Not found, with upper limits"), std::string::npos);
 }
 
 TEST_F(Limited, NothingIsToldOfLimitsWhereMoreThanNoiseIsLeft) {

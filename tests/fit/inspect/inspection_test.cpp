@@ -64,7 +64,7 @@ TEST_F(Inspecting, WhatIsJudgedBeyondAllThatIsFittedIsTold) {
   const auto sine = [](double top) {
     return [top](double t) { return top * (1 - std::cos(2 * std::numbers::pi * 3 * t)) / 2; };
   };
-  const std::string note = "r1 moves u over 0 .. 6 V, the recordings that are fitted only over 0 .. 5 V";
+  const std::string note = "r1 moves u over 0 .. 6 V, the train recordings only over 0 .. 5 V";
   EXPECT_TRUE(tells(inspected(gain_, data_set(gain_, 1000, {sine(5), sine(6), sine(5.2)})).notes, note));
   EXPECT_FALSE(tells(inspected(gain_, data_set(gain_, 1000, {sine(6), sine(5)})).notes, "extrapolated"));
   EXPECT_FALSE(tells(inspected(gain_, data_set(gain_, 1000, {sine(5), sine(5.4)})).notes, "extrapolated"))
