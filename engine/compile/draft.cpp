@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <optional>
 #include <set>
 #include <string_view>
 #include <unordered_set>
@@ -26,7 +27,7 @@ bool speaks_of(const std::string& path, const std::string& place) {
 
 class Draft {
  public:
-  Draft(const Diagram& diagram, const Registry& registry) : diagram_(diagram), registry_(registry) {}
+  Draft(const Diagram& diagram, const Registry& registry) : written_(diagram), registry_(registry) {}
 
   DraftProgram compile() {
     while (!compiled() && repaired_) repaired_ = false;
@@ -38,7 +39,7 @@ class Draft {
   /// One attempt; false where something was wrong: what it was is then left out of the next one.
   bool compiled() {
     const std::size_t before = gaps_.size();
-    WiredDiagram wired = wire_draft(diagram_, registry_, gaps_, problems_);
+    WiredDiagram wired = wire_draft(diagram(), registry_, gaps_, problems_);
     result_.left_out = wired.left_out;
     repaired_ = gaps_.size() > before;
     if (repaired_ || wired.blocks.empty()) return false;
@@ -48,7 +49,7 @@ class Draft {
     take_out_bounds(wired.parameters);
     try {
       infer_lengths(wired);
-      result_.program = compile_graph(scalarize_vectors(std::move(wired), registry_), diagram_);
+      result_.program = compile_graph(scalarize_vectors(std::move(wired), registry_), diagram());
       return true;
     } catch (const Error& error) {
       for (const auto& p : error.problems) take(p);
@@ -76,16 +77,20 @@ class Draft {
     });
   }
 
+  const Diagram& diagram() const { return without_settings_ ? *without_settings_ : written_; }
+
   void leave_out_setting(const std::string& path) {
+    if (!without_settings_) without_settings_.emplace(written_);
+    auto& simulate = without_settings_->simulate;
     const auto leave_out = [&](const char* name, auto& setting) {
       if (!speaks_of(path, std::string("/simulate/") + name)) return;
       repaired_ = wrong_settings_.insert(name).second || repaired_;
       setting = {};
     };
-    leave_out("loops", diagram_.simulate.loops);
-    leave_out("guess", diagram_.simulate.guess);
-    leave_out("past", diagram_.simulate.past);
-    leave_out("memory", diagram_.simulate.memory);
+    leave_out("loops", simulate.loops);
+    leave_out("guess", simulate.guess);
+    leave_out("past", simulate.past);
+    leave_out("memory", simulate.memory);
   }
 
   void take_out_bounds(Ordered<GraphParameter>& parameters) {
@@ -110,7 +115,8 @@ class Draft {
     if (!path.empty() && gaps_.left_out.insert(path).second) repaired_ = true;
   }
 
-  Diagram diagram_;  // without settings that are wrong
+  const Diagram& written_;
+  std::optional<Diagram> without_settings_{};  // those that are wrong; a large diagram is copied for these alone
   const Registry& registry_;
   Gaps gaps_{};
   Problems problems_{};
