@@ -200,15 +200,20 @@ Answer compare_verb_acts(const Arguments& arguments, const Watch& watch) {
   const auto data = std::make_shared<const DataSet>(load_data(arguments, *program));
   DataModelOptions model_options;
   model_options.threads = 2;
+  model_options.keep_workspaces = false;
   DataModel model(program, data, model_options);
   const auto recordings = judged_recordings(model);
   const Judge judge(model, noise_before_fit(model));
   improve_starts(model, judge, {}, recordings);
-  const Prediction prediction = model.predict({}, recordings);
+  Prediction prediction = model.predict({}, recordings);
   if (!prediction.ok)
     fail_numerics("simulation_failed", arguments.text("diagram"), prediction.error,
                   "run it alone with \"hysteron run\" to see where it diverges");
-  const Comparison comparison = compare(model, judge, prediction, recordings);
+  std::vector<std::string> behind;  // warnings
+  for (const auto& beginning : begin_elsewhere(model, judge.noise(), prediction, {}, recordings))
+    behind.push_back(to_text(model, beginning));
+  const auto delays = find_delays(model, judge, prediction);
+  const Comparison comparison = compare(model, judge, std::move(prediction), recordings);
   need_something_to_judge(arguments.text("--data"), model, comparison);
 
   Answer answer;
@@ -225,18 +230,17 @@ Answer compare_verb_acts(const Arguments& arguments, const Watch& watch) {
                                {"metrics", metrics_facts(model, comparison)},
                                {"splits", split_facts(model, comparison)}});
   if (!tolerances.empty()) facts.set("within_tolerance", within);
-  for (const auto& beginning : begin_elsewhere(model, judge.noise(), prediction, {}, recordings))
-    document.warnings.push_back(to_text(model, beginning));
-  Facts::List delays;
-  for (const auto& delay : find_delays(model, judge, prediction))
+  Facts::List late;
+  for (const auto& delay : delays)
     if (!delay.sentence.empty()) {
-      document.warnings.push_back(delay.sentence);
-      delays.push_back(Facts::object({{"output", model.outputs()[static_cast<std::size_t>(delay.output)]},
-                                      {"samples", delay.samples},
-                                      {"seconds", delay.seconds},
-                                      {"sentence", delay.sentence}}));
+      behind.push_back(delay.sentence);
+      late.push_back(Facts::object({{"output", model.outputs()[static_cast<std::size_t>(delay.output)]},
+                                    {"samples", delay.samples},
+                                    {"seconds", delay.seconds},
+                                    {"sentence", delay.sentence}}));
     }
-  facts.set("delays", delays);
+  document.warnings.insert(document.warnings.end(), behind.begin(), behind.end());
+  facts.set("delays", late);
   document.facts = to_json(facts);
   answer.exit_code = within ? exit_code::done : exit_code::no;
   return answer;

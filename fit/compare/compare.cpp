@@ -61,9 +61,6 @@ std::string headline(const DataModel& model, const Comparison& c, int output) {
 std::vector<SplitSignal> signals_besides(const DataModel& model, const std::vector<int>& recordings) {
   std::vector<SplitSignal> list;
   const auto& names = model.program().input_names;
-  std::vector<Rows> main;
-  if (model.main_input() >= 0)
-    for (const int r : recordings) main.push_back(model.input(r, model.main_input()));
   for (int k = 0; k < static_cast<int>(names.size()); ++k) {
     if (k == model.main_input()) continue;
     SplitSignal signal{
@@ -87,6 +84,10 @@ std::vector<SplitSignal> signals_besides(const DataModel& model, const std::vect
     }
     if (signal.rows.size() == recordings.size()) list.push_back(std::move(signal));
   }
+  if (list.empty()) return list;
+  std::vector<Rows> main;
+  if (model.main_input() >= 0)
+    for (const int r : recordings) main.push_back(model.input(r, model.main_input()));
   return telling_signals(std::move(list), main);
 }
 
@@ -149,15 +150,15 @@ Comparison compare(const DataModel& model, const Judge& judge, Prediction predic
     }
     c.metrics.push_back({-1, true, Role::train, o, all.metrics(own)});
 
-    std::vector<Rows> inputs(recordings.size());
+    std::vector<RowsPointer> inputs(recordings.size());
     std::vector<SplitInput> parts;
     std::vector<int> split;
     for (std::size_t k = 0; k < recordings.size(); ++k) {
       const int r = recordings[k];
       const Rows& residual = c.residual[static_cast<std::size_t>(r)][static_cast<std::size_t>(o)];
       if (residual.empty()) continue;
-      if (input >= 0) inputs[k] = model.input(r, input);
-      parts.push_back({&model.times(r), input >= 0 ? &inputs[k] : nullptr, &residual, model.recording(r).name});
+      if (input >= 0) inputs[k] = model.shared_input(r, input);
+      parts.push_back({&model.times(r), inputs[k].get(), &residual, model.recording(r).name});
       split.push_back(r);
     }
     const auto besides = signals_besides(model, split);

@@ -81,6 +81,7 @@ struct SplitInput {
   const Rows* u = nullptr;         ///< main input [SI]; null = splits by input are left out
   const Rows* residual = nullptr;  ///< [SI]
   std::string name;                ///< of the recording
+  double rough = -1;               ///< roughness of u; below 0: not known yet
 };
 /// A further signal of the recordings: a temperature, a force, another axis.
 struct SplitSignal {
@@ -88,8 +89,8 @@ struct SplitSignal {
   Unit unit;
   std::vector<Rows> rows;  ///< per recording [SI]
 };
-std::vector<Split> splits_of(const std::vector<SplitInput>& recordings, const std::string& input_name,
-                             const Unit& input_unit, const std::vector<SplitSignal>& besides = {});
+std::vector<Split> splits_of(std::vector<SplitInput> recordings, const std::string& input_name, const Unit& input_unit,
+                             const std::vector<SplitSignal>& besides = {});
 
 /// Those of further signals that move, and in another way than the main input `u` (per recording): what moves with it
 /// would be split as its level is.

@@ -15,7 +15,8 @@ Holds holds_of(const std::vector<SplitInput>& recordings, const std::vector<std:
     const Rows &t = *recordings[r].t, &u = *recordings[r].u;
     Rows rows(t.size(), -1.0);
     const auto [low, high] = std::minmax_element(u.begin(), u.end());
-    const double step = std::max(0.005 * (*high - *low), 6 * roughness(u));
+    const double step =
+        std::max(0.005 * (*high - *low), 6 * (recordings[r].rough >= 0 ? recordings[r].rough : roughness(u)));
     double since = 0;
     for (std::size_t i = 0; i < t.size(); ++i) {
       if (branch[r][i] != Branch::hold) continue;

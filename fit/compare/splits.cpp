@@ -110,6 +110,7 @@ Draft by_time(const std::vector<SplitInput>& recordings) {
   for (const auto& r : recordings) {
     const double begin = r.t->front(), length = r.t->back() - begin;
     std::vector<int> part;
+    part.reserve(r.t->size());
     for (const double t : *r.t)
       part.push_back(length > 0 ? std::clamp(static_cast<int>(5 * (t - begin) / length), 0, 4) : 0);
     d.part.push_back(std::move(part));
@@ -135,6 +136,7 @@ Draft by_level(const std::vector<const Rows*>& signal, const std::string& variab
   }
   for (const Rows* rows : signal) {
     std::vector<int> part;
+    part.reserve(rows->size());
     for (const double u : *rows) part.push_back(width > 0 ? std::clamp(static_cast<int>((u - low) / width), 0, 4) : 0);
     d.part.push_back(std::move(part));
   }
@@ -155,6 +157,7 @@ Draft by_branch(const std::vector<std::vector<Branch>>& branch, const std::strin
           {}};
   for (const auto& rows : branch) {
     std::vector<int> part;
+    part.reserve(rows.size());
     for (const Branch b : rows) part.push_back(b == Branch::rising ? 0 : b == Branch::falling ? 1 : 2);
     d.part.push_back(std::move(part));
   }
@@ -169,6 +172,7 @@ Draft by_rate(const std::vector<SplitInput>& recordings, const std::vector<std::
   for (std::size_t r = 0; r < recordings.size(); ++r) {
     const Rows &u = *recordings[r].u, &t = *recordings[r].t;
     std::vector<double> v(u.size(), 0.0);
+    moving.reserve(moving.size() + u.size());
     for (std::size_t i = 0; i < u.size() && u.size() > 1; ++i) {
       const std::size_t a = i > 0 ? i - 1 : 0, b = std::min(i + 1, u.size() - 1);
       v[i] = std::abs((u[b] - u[a]) / (t[b] - t[a]));
@@ -176,12 +180,15 @@ Draft by_rate(const std::vector<SplitInput>& recordings, const std::vector<std::
     }
     rate.push_back(std::move(v));
   }
-  std::sort(moving.begin(), moving.end());
   std::vector<double> edges;  // thirds of the rows that move, equal edges only once
-  for (const std::size_t k : {moving.size() / 3, 2 * moving.size() / 3})
-    if (k < moving.size() && moving[k] > moving.front() * (1 + 1e-6) &&
-        (edges.empty() || moving[k] > edges.back() * (1 + 1e-6)))
+  const double slowest = moving.empty() ? 0 : *std::min_element(moving.begin(), moving.end());
+  for (const std::size_t k : {moving.size() / 3, 2 * moving.size() / 3}) {
+    if (k >= moving.size()) continue;
+    std::nth_element(moving.begin(), moving.begin() + static_cast<std::ptrdiff_t>(k), moving.end());
+    if (moving[k] > slowest * (1 + 1e-6) && (edges.empty() || moving[k] > edges.back() * (1 + 1e-6)))
       edges.push_back(moving[k]);
+  }
+  moving = {};
   const auto text = [&](double si) {
     const std::string per = unit.text.empty() ? "1/s" : unit.text + "/s";
     return fmt::format("{:.3g} {}", unit.difference_from_si(si), per);
@@ -200,6 +207,7 @@ Draft by_rate(const std::vector<SplitInput>& recordings, const std::vector<std::
   }
   for (std::size_t r = 0; r < recordings.size(); ++r) {
     std::vector<int> part;
+    part.reserve(rate[r].size());
     for (std::size_t i = 0; i < rate[r].size(); ++i)
       part.push_back(
           branch[r][i] == Branch::hold
@@ -213,7 +221,7 @@ Draft by_rate(const std::vector<SplitInput>& recordings, const std::vector<std::
 Draft by_cycle(const std::vector<SplitInput>& recordings) {
   Draft d{"cycle", "by cycle", {"first cycle", "later"}, {"in the first cycle", "after the first cycle"}, {}};
   for (const auto& r : recordings) {
-    const std::size_t end = first_cycle_end(*r.u);
+    const std::size_t end = first_cycle_end(*r.u, turning_threshold(*r.u, r.rough));
     std::vector<int> part(r.u->size(), 1);
     std::fill(part.begin(), part.begin() + static_cast<std::ptrdiff_t>(end), 0);
     d.part.push_back(std::move(part));
@@ -257,7 +265,7 @@ Draft by_amplitude(const std::vector<SplitInput>& recordings, const std::string&
   for (const auto& r : recordings) {
     const Rows& u = *r.u;
     Rows size(u.size(), 0.0);
-    auto ends = turning_points(u, turning_threshold(u));
+    auto ends = turning_points(u, turning_threshold(u, r.rough));
     if (!u.empty()) ends.push_back(u.size() - 1);
     std::size_t begin = 0;
     for (const std::size_t end : ends) {
@@ -269,6 +277,7 @@ Draft by_amplitude(const std::vector<SplitInput>& recordings, const std::string&
   }
   for (const auto& rows : swing) {
     std::vector<int> part;
+    part.reserve(rows.size());
     for (const double s : rows) part.push_back(largest > 0 ? std::clamp(static_cast<int>(3 * s / largest), 0, 2) : 0);
     d.part.push_back(std::move(part));
   }
@@ -290,6 +299,7 @@ Draft by_hold_time(const Holds& holds, const std::string& name) {
   }
   for (const auto& rows : holds.age) {
     std::vector<int> part;
+    part.reserve(rows.size());
     for (const double a : rows) part.push_back(a < 0 ? 0 : 1 + decades.of(a));
     d.part.push_back(std::move(part));
   }
@@ -335,6 +345,7 @@ Split by_frequency(const std::vector<SplitInput>& recordings) {
   std::vector<SplitInput> spectra = recordings;
   for (std::size_t r = 0; r < recordings.size(); ++r) {
     std::vector<int> part;
+    part.reserve(cosines[r].size());
     for (std::size_t k = 0; k < cosines[r].size(); ++k) part.push_back(decades.of(grid[r] * static_cast<double>(k)));
     d.part.push_back(std::move(part));
     spectra[r].residual = &cosines[r];
@@ -355,17 +366,19 @@ long used_parts(const Split& s) {
 
 }  // namespace
 
-std::vector<Split> splits_of(const std::vector<SplitInput>& recordings, const std::string& input_name,
-                             const Unit& input_unit, const std::vector<SplitSignal>& besides) {
+std::vector<Split> splits_of(std::vector<SplitInput> recordings, const std::string& input_name, const Unit& input_unit,
+                             const std::vector<SplitSignal>& besides) {
   std::vector<Split> splits;
   if (recordings.empty()) return splits;
+  for (auto& r : recordings)
+    if (r.u != nullptr && r.rough < 0) r.rough = roughness(*r.u);
   const auto add = [&](const Draft& d) { splits.push_back(finish(d, recordings)); };
   if (recordings.size() > 1) add(by_recording(recordings));
   add(by_time(recordings));
   const bool has_input = std::all_of(recordings.begin(), recordings.end(), [](auto& r) { return r.u != nullptr; });
   if (has_input) {
     std::vector<std::vector<Branch>> branch;
-    for (const auto& r : recordings) branch.push_back(branches(*r.u));
+    for (const auto& r : recordings) branch.push_back(branches(*r.u, r.rough));
     std::vector<const Rows*> inputs;
     for (const auto& r : recordings) inputs.push_back(r.u);
     add(by_level(inputs, "level", input_name, input_unit));

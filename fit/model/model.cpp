@@ -35,7 +35,7 @@ DataModel::DataModel(ProgramPointer program, std::shared_ptr<const DataSet> data
   for (std::size_t o = 0; o < c.outputs.size(); ++o) {
     double low = std::numeric_limits<double>::infinity(), high = -low;
     for (const auto& b : c.bound)
-      for (const double y : b.measured[o]) {
+      for (const double y : *b.measured[o]) {
         low = std::min(low, y);
         high = std::max(high, y);
       }
@@ -69,29 +69,39 @@ bool DataModel::zero_per_recording(int output) const {
   return note != data().notes.end() && note->second.zero_per_recording;
 }
 const Rows& DataModel::measured(int recording, int output) const {
-  return content_->bound[static_cast<std::size_t>(recording)].measured[static_cast<std::size_t>(output)];
+  return *content_->bound[static_cast<std::size_t>(recording)].measured[static_cast<std::size_t>(output)];
 }
-const Rows& DataModel::times(int recording) const { return content_->bound[static_cast<std::size_t>(recording)].times; }
+const Rows& DataModel::times(int recording) const {
+  return *content_->bound[static_cast<std::size_t>(recording)].times;
+}
 
-Rows DataModel::input(int recording, int input) const {
+Rows DataModel::input(int recording, int input) const { return *shared_input(recording, input); }
+
+RowsPointer DataModel::shared_input(int recording, int input) const {
   const BoundRecording& b = content_->bound[static_cast<std::size_t>(recording)];
   const auto signal = static_cast<std::size_t>(program().input_signals[static_cast<std::size_t>(input)]);
   const auto block = static_cast<std::size_t>(program().signals[signal].block);
   const auto& series = *b.run.series[static_cast<std::size_t>(program().blocks[block].series_index)];
-  Rows rows;
-  rows.reserve(b.times.size());
+  const auto& columns = this->recording(recording).columns;
+  // At its samples it is the column, but for those that come late, move smoothly or are not all judged.
+  if (const auto column = columns.find(program().input_names[static_cast<std::size_t>(input)]);
+      column != columns.end() && series.v == column->second && series.t == *b.times)
+    return {content_->data, &column->second};
+  auto rows = std::make_shared<Rows>();
+  rows->reserve(b.times->size());
   SeriesCursor cursor(series);
-  for (const double t : b.times) rows.push_back(cursor.value(t, t));
+  for (const double t : *b.times) rows->push_back(cursor.value(t, t));
   return rows;
 }
 
 int DataModel::main_input() const {
+  if (const int known = content_->main_input; known > -2) return known;
   int best = -1;
   double largest = -1;
   for (int i = 0; i < static_cast<int>(program().input_names.size()); ++i) {
     double low = std::numeric_limits<double>::infinity(), high = -low;
     for (int r = 0; r < n_recordings(); ++r)
-      for (const double u : input(r, i)) {
+      for (const double u : *shared_input(r, i)) {
         low = std::min(low, u);
         high = std::max(high, u);
       }
@@ -102,6 +112,7 @@ int DataModel::main_input() const {
       best = i;
     }
   }
+  content_->main_input = best;
   return best;
 }
 
@@ -125,9 +136,15 @@ Prediction DataModel::predict(std::span<const ParameterValue> values, std::span<
   prediction.y.resize(c.bound.size());
   prediction.initial.resize(c.bound.size());
   std::vector<std::string> errors(c.bound.size());
-  c.side_by_side(recordings, [&](int r) {
+  const auto predict_recording = [&](int r) {
     c.predict_one(r, values, with_initial, prediction, errors[static_cast<std::size_t>(r)]);
-  });
+    if (!c.options.keep_workspaces) c.release(c.bound[static_cast<std::size_t>(r)]);
+  };
+  // The exact advance is quick, and its workspaces are several times what it makes: one after the other.
+  if (!c.options.keep_workspaces && c.not_exact.empty())
+    std::for_each(recordings.begin(), recordings.end(), predict_recording);
+  else
+    c.side_by_side(recordings, predict_recording);
   for (const auto& error : errors)
     if (!error.empty() && prediction.ok) {
       prediction.ok = false;

@@ -27,6 +27,7 @@ using Trial = std::vector<ParameterValue>;
 
 /// Rows of one output on one recording, or of one response; only judged rows [first, last).
 using Rows = std::vector<double>;
+using RowsPointer = std::shared_ptr<const Rows>;
 
 /// What the model says. A simulation that fails is a value: the candidate is lost, never the fit.
 struct Prediction {
@@ -53,6 +54,7 @@ struct DataModelOptions {
   double substep_share = 0;          ///< of what the model leaves (rms about its mean): no finer than that either
   bool force_cvode = false;          ///< integrate with BDF even where the exact advance would do (cross-check)
   double relative_tolerance = 1e-7;  ///< of BDF
+  bool keep_workspaces = true;       ///< else each prediction gives back what it worked with: for one or two of them
   bool bdf_otherwise = true;         ///< where max_substeps do not suffice; else the finest rows are taken as they are
   /// Of a model of the same recordings: where they suffice as they are, no substeps are chosen. A recording that has
   /// another number of rows begins uncut.
@@ -90,6 +92,8 @@ class DataModel {
   const Rows& times(int recording) const;
   /// An input of the program at the judged rows [SI].
   Rows input(int recording, int input) const;
+  /// The same, without a copy where it is a column of the recording as it stands.
+  RowsPointer shared_input(int recording, int input) const;
   /// The input that moves most, relative to its mean size: the one that splits speak of. -1 if there is none.
   int main_input() const;
   /// Largest minus smallest measured value over all recordings [SI].

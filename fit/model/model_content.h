@@ -14,13 +14,31 @@
 
 namespace hysteron {
 
+/// Where the judged rows of one output stand among the instants.
+class RowPlaces {
+ public:
+  RowPlaces() = default;
+  /// Row i at instant i.
+  explicit RowPlaces(std::size_t rows) : count_(rows) {}
+  explicit RowPlaces(std::vector<std::size_t> places) : count_(places.size()), places_(std::move(places)) {}
+
+  bool empty() const { return count_ == 0; }
+  std::size_t size() const { return count_; }
+  std::size_t operator[](std::size_t row) const { return places_.empty() ? row : places_[row]; }
+
+ private:
+  std::size_t count_ = 0;
+  std::vector<std::size_t> places_;
+};
+
 /// Everything of one recording that does not change from trial to trial, and the workspaces that only it uses.
 struct BoundRecording {
-  Run run;                       ///< inputs bound, parameters as compiled
-  std::vector<double> instants;  ///< where the model is evaluated: start of the recording, then all judged instants
-  std::vector<std::vector<std::size_t>> at;  ///< [output][judged row]: index into instants
-  std::vector<Rows> measured;                ///< [output][judged row]
-  Rows times;
+  Run run;                      ///< inputs bound, parameters as compiled
+  Advance::Instants evaluated;  ///< where the model is evaluated: start of the recording, then all judged instants
+  std::vector<RowPlaces> at;    ///< [output][judged row]: index into instants()
+  // Where all rows of a recording are judged these are its own.
+  std::vector<RowsPointer> measured;  ///< [output][judged row]
+  RowsPointer times;
   Advance::Instants rows;          ///< the instants, as the advance knows them again, and what they are cut into
   std::vector<RowCut> pieces;      ///< per instant: how the way to it is cut; empty: nothing is
   std::vector<std::size_t> place;  ///< per instant: index into rows; empty: they are the instants
@@ -34,6 +52,7 @@ struct BoundRecording {
   std::vector<std::vector<double>> values;                    ///< workspace: [output][instant]
   std::vector<std::vector<std::vector<double>>> many_values;  ///< the same per trial
 
+  const std::vector<double>& instants() const { return *evaluated; }
   void cut(std::vector<RowCut> into);
   /// What `pieces` would be without `substeps`: each part of a row cut into so many.
   std::vector<RowCut> all_pieces() const;
@@ -73,9 +92,16 @@ struct DataModel::Content {
   std::vector<bool> free_state_is_linear;
   std::vector<double> spans;
   std::atomic<long> runs{0}, failures{0};
+  std::atomic<int> main_input{-2};  ///< -2: not known yet
+
+  RowsPointer judged(int r, const std::vector<double>& column) const;
 
   void find_outputs();
   void bind(int r);
+  void bind_rows(int r);
+  void bind_late_rows(int r);
+  bool judges_rows_as_they_are(const Recording& recording) const;
+  void release(BoundRecording& b) const;
   void find_free_states();
   bool settles(int r) const;
   Run begun_at_start(int r, std::span<const ParameterValue> values);

@@ -54,34 +54,83 @@ void DataModel::Content::bind(int r) {
   for (const auto& input : program->input_names)
     bind_input(*program, b.run, input, input_series(*data, recording, input));
 
-  b.times = recording.judged(recording.t);
-  b.measured.resize(outputs.size());
+  b.times = judged(r, recording.t);
+  b.measured.assign(outputs.size(), std::make_shared<const Rows>());
   b.at.resize(outputs.size());
-  std::vector<std::vector<double>> wanted(outputs.size());
-  const double begin = recording.t.front();
-  b.instants = {begin};
-  for (std::size_t o = 0; o < outputs.size(); ++o) {
-    const auto column = recording.columns.find(outputs[o]);
-    if (column == recording.columns.end()) continue;
-    b.measured[o] = recording.judged(column->second);
-    // Before the start the model is where it starts: at rest there.
-    for (const double t : recording.judged(output_instants(*data, recording, outputs[o])))
-      wanted[o].push_back(std::max(begin, t));
-    b.instants.insert(b.instants.end(), wanted[o].begin(), wanted[o].end());
-  }
-  std::sort(b.instants.begin(), b.instants.end());
-  b.instants.erase(std::unique(b.instants.begin(), b.instants.end()), b.instants.end());
-  b.points_per_instant =
-      static_cast<double>(rows_between(b.instants, b.run.series).size()) / static_cast<double>(b.instants.size());
   for (std::size_t o = 0; o < outputs.size(); ++o)
-    for (const double t : wanted[o])
-      b.at[o].push_back(
-          static_cast<std::size_t>(std::lower_bound(b.instants.begin(), b.instants.end(), t) - b.instants.begin()));
+    if (const auto column = recording.columns.find(outputs[o]); column != recording.columns.end())
+      b.measured[o] = judged(r, column->second);
+  if (judges_rows_as_they_are(recording))
+    bind_rows(r);
+  else
+    bind_late_rows(r);
+  b.points_per_instant =
+      static_cast<double>(rows_between(b.instants(), b.run.series).size()) / static_cast<double>(b.instants().size());
   if (not_exact.empty()) {
     b.cut({});
     b.advance.emplace(program, signals);
     needs_substeps = needs_substeps || !b.advance->exact_without_substeps();
   }
+}
+
+/// Those that are judged; where all are, those of the data set.
+RowsPointer DataModel::Content::judged(int r, const std::vector<double>& column) const {
+  const Recording& recording = data->recordings[static_cast<std::size_t>(r)];
+  if (recording.first == 0 && recording.last == column.size() && recording.left_out.empty()) return {data, &column};
+  return std::make_shared<const Rows>(recording.judged(column));
+}
+
+/// Every row of some output, and no output late.
+bool DataModel::Content::judges_rows_as_they_are(const Recording& recording) const {
+  if (recording.first != 0 || recording.last != recording.t.size() || !recording.left_out.empty()) return false;
+  const auto is_measured = [&](const std::string& output) { return recording.columns.contains(output); };
+  const auto is_in_time = [&](const std::string& output) {
+    const auto note = data->notes.find(output);
+    return note == data->notes.end() || (note->second.delay_samples == 0 && note->second.delay_seconds == 0);
+  };
+  return std::any_of(outputs.begin(), outputs.end(), is_measured) &&
+         std::all_of(outputs.begin(), outputs.end(), is_in_time);
+}
+
+void DataModel::Content::bind_rows(int r) {
+  const Recording& recording = data->recordings[static_cast<std::size_t>(r)];
+  BoundRecording& b = bound[static_cast<std::size_t>(r)];
+  b.evaluated = {data, &recording.t};
+  for (std::size_t o = 0; o < outputs.size(); ++o)
+    if (recording.columns.contains(outputs[o])) b.at[o] = RowPlaces(recording.t.size());
+}
+
+void DataModel::Content::bind_late_rows(int r) {
+  const Recording& recording = data->recordings[static_cast<std::size_t>(r)];
+  BoundRecording& b = bound[static_cast<std::size_t>(r)];
+  std::vector<std::vector<double>> wanted(outputs.size());
+  const double begin = recording.t.front();
+  std::vector<double> instants{begin};
+  for (std::size_t o = 0; o < outputs.size(); ++o) {
+    if (!recording.columns.contains(outputs[o])) continue;
+    // Before the start the model is where it starts: at rest there.
+    for (const double t : recording.judged(output_instants(*data, recording, outputs[o])))
+      wanted[o].push_back(std::max(begin, t));
+    instants.insert(instants.end(), wanted[o].begin(), wanted[o].end());
+  }
+  std::sort(instants.begin(), instants.end());
+  instants.erase(std::unique(instants.begin(), instants.end()), instants.end());
+  for (std::size_t o = 0; o < outputs.size(); ++o) {
+    std::vector<std::size_t> places;
+    places.reserve(wanted[o].size());
+    for (const double t : wanted[o])
+      places.push_back(
+          static_cast<std::size_t>(std::lower_bound(instants.begin(), instants.end(), t) - instants.begin()));
+    b.at[o] = RowPlaces(std::move(places));
+  }
+  b.evaluated = std::make_shared<const std::vector<double>>(std::move(instants));
+}
+
+/// What runs have worked with; the next one makes it anew.
+void DataModel::Content::release(BoundRecording& b) const {
+  b.values = {};
+  b.many_values = {};
+  if (b.advance) b.advance.emplace(program, signals);
 }
 
 void DataModel::Content::find_free_states() {
@@ -147,9 +196,9 @@ void DataModel::Content::simulate_into(BoundRecording& b, Run run, bool at_rest,
     return;
   }
   SimulateOptions o;
-  o.begin = b.instants.front();
-  o.until = b.instants.back();
-  o.instants = b.instants;
+  o.begin = b.instants().front();
+  o.until = b.instants().back();
+  o.instants = b.instants();
   o.signals = signals;
   o.method = Method::bdf;
   o.relative_tolerance = options.relative_tolerance;
@@ -163,18 +212,19 @@ std::vector<Rows> DataModel::Content::rows_of(const BoundRecording& b,
   for (std::size_t o = 0; o < outputs.size(); ++o) {
     const auto& at = b.at[o];
     if (at.empty()) continue;
-    if (at.back() - at.front() + 1 == at.size()) {
-      const auto first = values[o].begin() + static_cast<std::ptrdiff_t>(at.front());
+    if (at[at.size() - 1] - at[0] + 1 == at.size()) {
+      const auto first = values[o].begin() + static_cast<std::ptrdiff_t>(at[0]);
       rows[o].assign(first, first + static_cast<std::ptrdiff_t>(at.size()));
     } else {
       rows[o].reserve(at.size());
-      for (const std::size_t i : at) rows[o].push_back(values[o][i]);
+      for (std::size_t i = 0; i < at.size(); ++i) rows[o].push_back(values[o][at[i]]);
     }
     const auto bad = std::find_if(rows[o].begin(), rows[o].end(), [](double y) { return !std::isfinite(y); });
     if (bad != rows[o].end())
-      fail_numerics("diverged", outputs[o],
-                    fmt::format("not finite at {} s", b.instants[at[static_cast<std::size_t>(bad - rows[o].begin())]]),
-                    "narrow the bounds");
+      fail_numerics(
+          "diverged", outputs[o],
+          fmt::format("not finite at {} s", b.instants()[at[static_cast<std::size_t>(bad - rows[o].begin())]]),
+          "narrow the bounds");
   }
   return rows;
 }
@@ -200,7 +250,7 @@ Run DataModel::Content::begun_at_start(int r, std::span<const ParameterValue> va
     return run;
   }
   Run run = prepared(r, values);
-  set_start(recording, run, b.instants.front());
+  set_start(recording, run, b.instants().front());
   return run;
 }
 
@@ -208,7 +258,7 @@ Run DataModel::Content::in_equilibrium(int r, std::span<const ParameterValue> va
   BoundRecording& b = bound[static_cast<std::size_t>(r)];
   if (b.rest && std::equal(values.begin(), values.end(), b.rest_of.begin(), b.rest_of.end())) return *b.rest;
   Run rest = prepared(r, values);
-  rest.t = b.instants.front();
+  rest.t = b.instants().front();
   try {
     Run settled = rest;
     settle_at_rest(*program, settled, settled.t);

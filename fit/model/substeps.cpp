@@ -35,7 +35,7 @@ constexpr std::size_t looked_at = 6;  // rows of an output at first
 /// Rows cut into so many parts are worth an attempt with fewer that grow.
 constexpr int least_graded = 32;
 
-std::vector<RowCut> uncut(const BoundRecording& b) { return std::vector<RowCut>(b.instants.size()); }
+std::vector<RowCut> uncut(const BoundRecording& b) { return std::vector<RowCut>(b.instants().size()); }
 
 double parts_of(const std::vector<RowCut>& rows) {
   return std::accumulate(rows.begin(), rows.end(), 0.0, [](double sum, const RowCut& r) { return sum + r.parts(); });
@@ -69,7 +69,7 @@ double worst_of(const std::vector<Rows>& coarse, const std::vector<Rows>& fine, 
 /// Instants on whose way the error is made, with their neighbours, whose slopes it also hangs on.
 std::vector<bool> where_made(const BoundRecording& b, const std::vector<Rows>& coarse, const std::vector<Rows>& fine,
                              std::span<const double> tolerance) {
-  std::vector<bool> made(b.instants.size(), false);
+  std::vector<bool> made(b.instants().size(), false);
   if (!is_finite(coarse) || !is_finite(fine)) return made;
   for (std::size_t o = 0; o < fine.size(); ++o) {
     std::vector<double> more(fine[o].size());
@@ -101,7 +101,7 @@ std::vector<RowCut> with_more_pieces(const BoundRecording& b, const std::vector<
 /// Instants where an output bends most, and the two behind each, of those that are not all cut finely yet: a step of
 /// the input bends it where its ramp begins, and where it ends the plant rings.
 std::vector<bool> where_it_bends(const BoundRecording& b, const std::vector<Rows>& rows, std::size_t most) {
-  std::vector<bool> bends(b.instants.size(), false);
+  std::vector<bool> bends(b.instants().size(), false);
   for (std::size_t o = 0; o < rows.size(); ++o) {
     const Rows& y = rows[o];
     const auto is_coarse = [&](std::size_t i) { return b.pieces.empty() || b.pieces[b.at[o][i]].into < to_see; };
@@ -134,7 +134,7 @@ std::vector<double> no_finer_than(double share, const BoundRecording& b, const s
     double sum = 0, squares = 0;
     const auto n = static_cast<double>(made[o].size());
     for (std::size_t i = 0; i < made[o].size(); ++i) {
-      const double left = b.measured[o][i] - made[o][i];
+      const double left = (*b.measured[o])[i] - made[o][i];
       sum += left;
       squares += left * left;
     }
@@ -154,17 +154,17 @@ void BoundRecording::cut(std::vector<RowCut> into) {
   pieces = std::move(into);
   place.clear();
   if (pieces.empty()) {
-    rows = std::make_shared<const std::vector<double>>(instants);
+    rows = evaluated;
     return;
   }
   std::vector<double> all;
   all.reserve(static_cast<std::size_t>(parts_of(pieces)));
-  for (std::size_t i = 0; i < instants.size(); ++i) {
-    const double before = i == 0 ? instants[0] : instants[i - 1], way = instants[i] - before;
+  for (std::size_t i = 0; i < instants().size(); ++i) {
+    const double before = i == 0 ? instants()[0] : instants()[i - 1], way = instants()[i] - before;
     if (i > 0 && pieces[i].into > 1)
       for (const double end : ends_of_parts(pieces[i])) all.push_back(before + way * end);
     place.push_back(all.size());
-    all.push_back(instants[i]);
+    all.push_back(instants()[i]);
   }
   rows = std::make_shared<const std::vector<double>>(std::move(all));
 }
@@ -233,7 +233,7 @@ SubstepsFound DataModel::Content::choose_substeps(int r, std::span<const Paramet
   std::size_t look_at = looked_at;
   double worst_before = std::numeric_limits<double>::infinity();
   double when_it_helped = static_cast<double>(b.rows->size());
-  const auto most = static_cast<std::size_t>(options.max_substeps) * b.instants.size();
+  const auto most = static_cast<std::size_t>(options.max_substeps) * b.instants().size();
   while (static_cast<std::size_t>(b.substeps) * b.rows->size() < most) {
     auto fine = rows_with(2 * b.substeps);
     const auto tolerance = no_finer_than(options.substep_share, b, fine, asked);
@@ -280,7 +280,7 @@ SubstepsFound DataModel::Content::choose_substeps(int r, std::span<const Paramet
 std::vector<RowCut> DataModel::Content::cuts_to_begin_with(int r) const {
   if (!options.begin_with || static_cast<std::size_t>(r) >= options.begin_with->size()) return {};
   const auto& known = (*options.begin_with)[static_cast<std::size_t>(r)];
-  return known.size() == bound[static_cast<std::size_t>(r)].instants.size() ? known : std::vector<RowCut>{};
+  return known.size() == bound[static_cast<std::size_t>(r)].instants().size() ? known : std::vector<RowCut>{};
 }
 
 std::vector<std::string> DataModel::choose_substeps(std::span<const ParameterValue> values,
@@ -350,7 +350,7 @@ Cuts DataModel::cuts() const {
 
 long DataModel::steps(int recording) const {
   const BoundRecording& b = content_->bound[static_cast<std::size_t>(recording)];
-  const auto rows = static_cast<double>(b.rows ? b.rows->size() : b.instants.size());
+  const auto rows = static_cast<double>(b.rows ? b.rows->size() : b.instants().size());
   return std::lround(rows * b.points_per_instant * b.substeps);
 }
 

@@ -4,7 +4,9 @@
 
 namespace hysteron {
 
-double median(std::vector<double> values) {
+double median(std::vector<double> values) { return median_of(values); }
+
+double median_of(std::span<double> values) {
   if (values.empty()) return 0;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
@@ -13,8 +15,9 @@ double median(std::vector<double> values) {
 
 double median_step(std::span<const double> t) {
   std::vector<double> steps;
+  steps.reserve(t.size());
   for (std::size_t i = 1; i < t.size(); ++i) steps.push_back(t[i] - t[i - 1]);
-  return median(std::move(steps));
+  return median_of(steps);
 }
 
 }  // namespace hysteron

@@ -23,20 +23,22 @@ double roughness(std::span<const double> u) {
   // signal has differences that fall with the order, so the least of three orders is the noise and hardly ever the
   // signal.
   constexpr std::array variance{2.0, 6.0, 20.0, 70.0, 252.0, 924.0};
-  std::vector<double> difference(u.begin(), u.end());
+  std::vector<double> difference(u.begin(), u.end()), size;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t order = 1; order <= 6 && difference.size() > 8; ++order) {
     for (std::size_t i = 0; i + 1 < difference.size(); ++i) difference[i] = difference[i + 1] - difference[i];
     difference.pop_back();
     if (order % 2 != 0) continue;
-    auto size = difference;
-    for (double& x : size) x = std::abs(x);
-    least = std::min(least, median(std::move(size)) / 0.6745 / std::sqrt(variance[order - 1]));
+    size.resize(difference.size());
+    std::transform(difference.begin(), difference.end(), size.begin(), [](double x) { return std::abs(x); });
+    least = std::min(least, median_of(size) / 0.6745 / std::sqrt(variance[order - 1]));
   }
   return std::isfinite(least) ? least : 0;
 }
 
-double turning_threshold(std::span<const double> u) { return std::max(0.02 * span_of(u), 6 * roughness(u)); }
+double turning_threshold(std::span<const double> u) { return turning_threshold(u, roughness(u)); }
+
+double turning_threshold(std::span<const double> u, double rough) { return std::max(0.02 * span_of(u), 6 * rough); }
 
 std::vector<std::size_t> turning_points(std::span<const double> u, double threshold) {
   std::vector<std::size_t> turns;
@@ -60,13 +62,15 @@ std::vector<std::size_t> turning_points(std::span<const double> u, double thresh
   return turns;
 }
 
-std::vector<Branch> branches(std::span<const double> u) {
+std::vector<Branch> branches(std::span<const double> u) { return branches(u, roughness(u)); }
+
+std::vector<Branch> branches(std::span<const double> u, double rough) {
   std::vector<Branch> branch(u.size(), Branch::hold);
   const double span = span_of(u);
   if (!(span > 0)) return branch;
 
   // Legs between turning points give every row a direction ...
-  auto ends = turning_points(u, turning_threshold(u));
+  auto ends = turning_points(u, turning_threshold(u, rough));
   ends.push_back(u.size() - 1);
   std::size_t begin = 0;
   for (const std::size_t end : ends) {
@@ -75,7 +79,7 @@ std::vector<Branch> branches(std::span<const double> u) {
     begin = end;
   }
   // ... and runs of rows that stay where they are become holds.
-  const double flat = std::max(1e-4 * span, 6 * roughness(u));
+  const double flat = std::max(1e-4 * span, 6 * rough);
   constexpr std::size_t shortest = 5;
   for (std::size_t i = 0; i < u.size();) {
     double low = u[i], high = u[i];
@@ -97,8 +101,10 @@ std::vector<Branch> branches(std::span<const double> u) {
   return branch;
 }
 
-std::size_t first_cycle_end(std::span<const double> u) {
-  const auto turns = turning_points(u, turning_threshold(u));
+std::size_t first_cycle_end(std::span<const double> u) { return first_cycle_end(u, turning_threshold(u)); }
+
+std::size_t first_cycle_end(std::span<const double> u, double threshold) {
+  const auto turns = turning_points(u, threshold);
   return turns.size() < 2 ? u.size() : turns[1];
 }
 

@@ -19,11 +19,14 @@ std::vector<std::size_t> turning_points(std::span<const double> u, double thresh
 
 /// The threshold used where nothing is said: 2 % of the span, or six times the roughness.
 double turning_threshold(std::span<const double> u);
+double turning_threshold(std::span<const double> u, double rough);  ///< with its roughness, where that is known
 
 /// Branch of each row. Hold: at least five rows within 1e-4 of the span (or six times the roughness).
 std::vector<Branch> branches(std::span<const double> u);
+std::vector<Branch> branches(std::span<const double> u, double rough);  ///< with its roughness, where that is known
 
 /// First row behind the first cycle: where the second turning point lies; u.size() if there are fewer than two.
 std::size_t first_cycle_end(std::span<const double> u);
+std::size_t first_cycle_end(std::span<const double> u, double threshold);
 
 }  // namespace hysteron

@@ -12,6 +12,7 @@ namespace {
 
 std::vector<double> differences(std::span<const double> v) {
   std::vector<double> d;
+  d.reserve(v.size());
   for (std::size_t i = 1; i < v.size(); ++i) d.push_back(v[i] - v[i - 1]);
   return d;
 }

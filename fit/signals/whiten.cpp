@@ -2,6 +2,7 @@
 
 #include <fftw3.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <mutex>
@@ -85,6 +86,13 @@ void Whitener::apply(std::span<const double> rows, double* out) const {
   look_up();  // every search in a residual comes by here, column after column
   if (!constant_.empty()) return apply_by_rows(rows, out);
   if (in_time_) return apply_in_time(rows, out);
+  if (!drop_zero_) {  // in the place of the result
+    const std::span<double> in_place(out, weight_.size());
+    std::copy(rows.begin(), rows.end(), out);
+    cosine_transform(in_place);
+    for (std::size_t k = 0; k < in_place.size(); ++k) in_place[k] *= weight_[k];
+    return;
+  }
   std::vector<double> coefficients(rows.begin(), rows.end());
   cosine_transform(coefficients);
   for (std::size_t k = drop_zero_ ? 1 : 0; k < weight_.size(); ++k) *out++ = coefficients[k] * weight_[k];

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <utility>
 
 #include "engine/diagram/error.h"
 #include "io/data/binary_table.h"
@@ -167,8 +168,14 @@ class DataSetReader {
     if (places.empty())
       list->add("no_recordings", "there is no recording in the list",
                 "list one: {\"file\": \"01.csv\", \"role\": \"train\"}");
+    for (const auto& place : places)
+      if (const auto file = place.is_object() ? place.find("file") : std::nullopt; file && file->is_text())
+        ++listed_[path_of(*file)];
     for (const auto& place : places) recording(place, places.size() == 1);
   }
+
+  /// "" where it lies outside the project.
+  std::string path_of(const JsonPlace& file) const { return paths_.resolve(file_.file(), *file.text()).value_or(""); }
 
   void recording(const JsonPlace& place, bool alone) {
     if (!place.expect_object("{\"file\": \"01.csv\", \"role\": \"train\"}")) return;
@@ -186,12 +193,16 @@ class DataSetReader {
     const auto file = place.need("file", "write \"file\": \"01.csv\"");
     const auto written = file ? file->text() : std::nullopt;
     if (!written) return;
-    const auto* content = open(*file, *written);
+    auto* content = open(*file, *written);
     if (content == nullptr) return;
+    const bool for_the_last_time = --listed_[path_of(*file)] == 0;
     r.name = unique_name(*written, data_.recordings);
     r.file = content->file;
-    r.t = content->t;
-    bind(place, *content, r);
+    if (for_the_last_time)
+      r.t = std::move(content->t);
+    else
+      r.t = content->t;
+    bind(place, *content, r, for_the_last_time);
     note_use(r);
     read_span(place, r);
     read_excluded(place, r);
@@ -236,7 +247,7 @@ class DataSetReader {
   }
 
   /// Reads each file once, however often it is listed. A file that cannot be read is told where it is named.
-  const RecordingFile* open(const JsonPlace& place, const std::string& written) {
+  RecordingFile* open(const JsonPlace& place, const std::string& written) {
     if (written.empty()) {
       place.add("bad_value", "the name of the file is empty", "write \"file\": \"01.csv\"");
       return nullptr;
@@ -249,7 +260,7 @@ class DataSetReader {
     }
     if (const auto known = files_.find(*path); known != files_.end()) return &known->second;
     try {
-      const auto& read = files_.emplace(*path, read_measured_recording(*path, fewest_rows, choices_)).first->second;
+      auto& read = files_.emplace(*path, read_measured_recording(*path, fewest_rows, choices_)).first->second;
       if (!read.assumed.empty()) data_.remarks.push_back(how_it_was_read(written, read.assumed));
       return &read;
     } catch (const Error& error) {
@@ -261,7 +272,8 @@ class DataSetReader {
     }
   }
 
-  void bind(const JsonPlace& place, const RecordingFile& content, Recording& recording) {
+  /// Takes the columns where no other recording is to have them.
+  void bind(const JsonPlace& place, RecordingFile& content, Recording& recording, bool take) {
     for (auto& noted : noted_) {
       if (content.columns.contains(noted.column)) {
         if (!noted.unit_seen) {
@@ -285,7 +297,11 @@ class DataSetReader {
                   fmt::format("bind \"{0}\" to another name: \"columns\": {{\"{0}\": {{\"to\": \"{0}_2\"}}}}", name));
         continue;
       }
-      recording.columns[to] = content.columns.at(name);
+      auto& column = content.columns.at(name);
+      if (take)
+        recording.columns[to] = std::move(column);
+      else
+        recording.columns[to] = column;
       recording.units[to] = content.units.at(name);
       if (noted == noted_.end()) bound_by_name_.push_back(to);
     }
@@ -373,6 +389,7 @@ class DataSetReader {
   std::vector<Noted> noted_;
   std::vector<std::string> bound_by_name_;
   std::map<std::string, RecordingFile> files_;
+  std::map<std::string, int> listed_;  // how often each of them still is
   ReadingChoices choices_;
 };
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 
 #include "engine/diagram/error.h"
 #include "engine/diagram/name_list.h"
@@ -360,13 +361,27 @@ bool only_missing_values(const Error& error) {
 
 }  // namespace
 
+namespace {
+
+/// Whether the file begins as tables of ours do, by its first lines; by all of it where these say no.
+bool begins_plainly(const std::string& file) {
+  std::string begin(1 << 20, '\0');
+  std::ifstream stream(file, std::ios::binary);
+  stream.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  begin.resize(static_cast<std::size_t>(stream.gcount()));
+  begin.resize(begin.rfind('\n') + 1);  // whole lines, or none
+  return has_plain_header(begin) || has_plain_header(read_file(file));
+}
+
+}  // namespace
+
 MeasuredFile finished(MeasuredTable measured, const ReadingChoices& choices) {
   return Finisher(std::move(measured), choices).finish();
 }
 
 MeasuredFile read_measured_file(const std::string& file, const ReadingChoices& choices) {
   if (is_binary_table(file)) return as_it_stands(file, choices);
-  if (nothing_chosen(choices) && is_text_file(file) && has_plain_header(read_file(file))) {
+  if (nothing_chosen(choices) && is_text_file(file) && begins_plainly(file)) {
     try {
       return as_it_stands(file, choices);
     } catch (const Error& error) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "engine/diagram/error.h"
 #include "engine/diagram/name_list.h"
@@ -118,7 +119,7 @@ void check_times(const CsvTable& table) { check_order(table, time_column(table))
 
 namespace {
 
-RecordingFile recording_of(const CsvTable& table, std::size_t fewest_rows) {
+RecordingFile recording_of(CsvTable table, std::size_t fewest_rows) {
   check_sizes(table);
   const CsvColumn& time = time_column(table);
   check_order(table, time);
@@ -129,10 +130,9 @@ RecordingFile recording_of(const CsvTable& table, std::size_t fewest_rows) {
             "record longer, or name another file");
   RecordingFile recording;
   recording.file = table.file;
-  for (const auto& column : table.columns) {
-    std::vector<double> si;
-    si.reserve(column.values.size());
-    for (const double v : column.values) si.push_back(column.unit.to_si(v));
+  for (auto& column : table.columns) {
+    std::vector<double> si = std::move(column.values);
+    for (double& v : si) v = column.unit.to_si(v);
     if (&column == &time) {
       recording.t = std::move(si);
       continue;
@@ -151,8 +151,8 @@ RecordingFile read_recording_file(const std::string& file, std::size_t fewest_ro
 }
 
 RecordingFile read_measured_recording(const std::string& file, std::size_t fewest_rows, const ReadingChoices& choices) {
-  const MeasuredFile read = read_measured_file(file, choices);
-  RecordingFile recording = recording_of(read.table, fewest_rows);
+  MeasuredFile read = read_measured_file(file, choices);
+  RecordingFile recording = recording_of(std::move(read.table), fewest_rows);
   recording.file = file;
   recording.assumed = read.assumed;
   return recording;

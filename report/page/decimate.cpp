@@ -10,21 +10,28 @@ namespace {
 /// What is kept of the points [begin, end).
 void keep_of_bucket(std::span<const double> x, std::span<const double> y, std::size_t begin, std::size_t end, bool loop,
                     std::vector<std::size_t>& kept) {
-  std::array<std::size_t, 7> chosen{begin, end - 1, begin, begin, begin, begin, begin};
-  auto& [first, last, low, high, left, right, gap] = chosen;
+  // The outermost values beside their places: nothing is read twice.
+  std::size_t low = begin, high = begin, left = begin, right = begin, gap = begin;
+  double y_low = 0, y_high = 0, x_left = 0, x_right = 0;
   bool found = false;
   for (std::size_t i = begin; i < end; ++i) {
-    if (!std::isfinite(x[i]) || !std::isfinite(y[i])) {
+    const double x_here = x[i], y_here = y[i];
+    if (!std::isfinite(x_here) || !std::isfinite(y_here)) {
       gap = i;
       continue;
     }
-    if (!found) low = high = left = right = i;
-    found = true;
-    if (y[i] < y[low]) low = i;
-    if (y[i] > y[high]) high = i;
-    if (loop && x[i] < x[left]) left = i;
-    if (loop && x[i] > x[right]) right = i;
+    if (!found) {
+      low = high = left = right = i;
+      y_low = y_high = y_here;
+      x_left = x_right = x_here;
+      found = true;
+    }
+    if (y_here < y_low) low = i, y_low = y_here;
+    if (y_here > y_high) high = i, y_high = y_here;
+    if (loop && x_here < x_left) left = i, x_left = x_here;
+    if (loop && x_here > x_right) right = i, x_right = x_here;
   }
+  std::array<std::size_t, 7> chosen{begin, end - 1, low, high, left, right, gap};
   std::sort(chosen.begin(), chosen.end());
   kept.insert(kept.end(), chosen.begin(), std::unique(chosen.begin(), chosen.end()));
 }

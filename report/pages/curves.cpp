@@ -142,7 +142,8 @@ CsvTable recording_table(const Beside& view, int recording, const std::string& f
   const Rows& t = model.times(recording);
   add_column(table, "t", parse_unit("s"), t);
   for (int k = 0; k < static_cast<int>(model.program().input_names.size()); ++k) {
-    const Rows u = model.input(recording, k);
+    const RowsPointer shared = model.shared_input(recording, k);
+    const Rows& u = *shared;
     add_column(table, input_name(model, k), input_unit(model, k), u);
     if (k == model.main_input())
       add_column(table, input_name(model, k) + "_rate", rate_unit(input_unit(model, k)), rate_of(t, u));
@@ -202,7 +203,8 @@ void add_residual_figures(Section& section, const Beside& view, const std::vecto
     for (const int r : recordings) {
       const Rows& residual = view.now->residual[at(r)][at(y)];
       if (residual.empty()) continue;
-      const Rows u = model.input(r, main);
+      const RowsPointer shared = model.shared_input(r, main);
+      const Rows& u = *shared;
       const Rows rate = rate_of(model.times(r), u);
       const auto branch = branches(u);
       for (std::size_t i = 0; i < residual.size(); i += stride) {

@@ -59,6 +59,60 @@ TEST(DataModel, ManyTrialsSayWhatEachSaysAlone) {
   EXPECT_TRUE(together.predict_each({}, both).empty());
 }
 
+TEST(DataModel, WithoutWorkspacesThatAreKeptItSaysTheSame) {
+  const auto program = hysteretic_stage();
+  DataModelOptions options;
+  options.keep_workspaces = false;
+  DataModel kept(program, lab::shared(recordings(0.01, 300))),
+      given_back(program, lab::shared(recordings(0.01, 300)), options);
+  const std::vector<int> both{0, 1};
+  const auto first = kept.predict({}, both), again = kept.predict({}, both);
+  EXPECT_EQ(first.y, again.y);
+  // To the last bit, also where they were given back before.
+  EXPECT_EQ(given_back.predict({}, both).y, first.y);
+  EXPECT_EQ(given_back.predict({}, both).y, first.y);
+}
+
+TEST(DataModel, RowsThatAreJudgedAsTheyStandAreNotCopied) {
+  const auto program = hysteretic_stage();
+  const auto data = lab::shared(recordings(0.01, 300));
+  const DataModel model(program, data);
+  for (int r = 0; r < 2; ++r) {
+    const Recording& recording = data->recordings[static_cast<std::size_t>(r)];
+    EXPECT_EQ(&model.times(r), &recording.t);
+    EXPECT_EQ(&model.measured(r, 0), &recording.columns.at("y"));
+    EXPECT_EQ(model.shared_input(r, 0).get(), &recording.columns.at("u"));
+  }
+}
+
+/// An input or an output that comes late, or rows that are not judged: rows of its own, those that were asked for.
+TEST(DataModel, RowsThatComeLateOrAreLeftOutAreItsOwn) {
+  const auto program = hysteretic_stage();
+  DataSet late = recordings(0.01, 300);
+  late.notes["u"].delay_samples = 2;
+  const DataModel of_late(program, lab::shared(late));
+  const auto& u = of_late.data().recordings[0].columns.at("u");
+  const Rows rows = *of_late.shared_input(0, 0);
+  ASSERT_EQ(rows.size(), u.size());
+  for (std::size_t i = 0; i + 2 < u.size(); ++i) ASSERT_EQ(rows[i], u[i + 2]) << i;
+  DataSet cut = recordings(0.01, 300);
+  cut.recordings[0].first = 10;
+  const DataModel of_cut(program, lab::shared(cut));
+  const auto& whole = of_cut.data().recordings[0];
+  EXPECT_EQ(of_cut.times(0), Rows(whole.t.begin() + 10, whole.t.end()));
+  const auto& drive = whole.columns.at("u");
+  EXPECT_EQ(of_cut.input(0, 0), Rows(drive.begin() + 10, drive.end()));
+  const auto& y = whole.columns.at("y");
+  EXPECT_EQ(of_cut.measured(0, 0), Rows(y.begin() + 10, y.end()));
+  // What the model says of the rows that are left is what it says of them in the whole recording.
+  DataModel all(program, lab::shared(recordings(0.01, 300))), part(program, lab::shared(cut));
+  const std::vector<int> one{0};
+  const Rows of_all = all.predict({}, one).y[0][0], of_part = part.predict({}, one).y[0][0];
+  ASSERT_EQ(of_part.size() + 10, of_all.size());
+  // Substeps are chosen by the rows judged: both are within the tolerance of the choice, 1e-6 of the span.
+  for (std::size_t i = 0; i < of_part.size(); ++i) ASSERT_NEAR(of_part[i], of_all[i + 10], 2e-6 * all.span(0)) << i;
+}
+
 TEST(DataModel, WhatIsTooStiffForRowsIsIntegrated) {
   // A loop with a limit and a time constant of 2 us; rows of 10 ms would need thousands of steps each.
   Diagram d = lab::diagram("y");

@@ -55,6 +55,30 @@ std::string code_of_binding(const DataSet& data, const Program& program) {
   return "fits";
 }
 
+TEST(DataSet, AFileThatIsListedTwiceHasItsRowsInBoth) {
+  const TemporaryFolder folder;
+  folder.write("01.csv", rows(9));
+  folder.write("02.csv", rows(8));
+  const auto data = read_dataset(folder.write("data.json", R"({"format": 1, "columns": {"y": {"to": "y"}},
+    "recordings": [{"file": "01.csv", "role": "train", "until": "2 s"}, {"file": "02.csv", "role": "validate"},
+                   {"file": "./01.csv", "role": "validate", "skip": "2 s"}]})"));
+  ASSERT_EQ(data.recordings.size(), 3U);
+  EXPECT_EQ(data.recordings[0].t, data.recordings[2].t);
+  EXPECT_EQ(data.recordings[0].columns, data.recordings[2].columns);
+  EXPECT_EQ(data.recordings[0].columns.at("y").size(), 9U);
+  EXPECT_EQ(data.recordings[1].columns.at("y").size(), 8U);
+}
+
+TEST(DataSet, AHeaderBehindMuchCommentIsFound) {
+  const TemporaryFolder folder;
+  std::string text;
+  while (text.size() < (1U << 20) + 1000) text += "# a line that says nothing\n";
+  const auto data = read_dataset(folder.write("long.csv", text + rows(30)));
+  EXPECT_EQ(data.recordings.front().t.size(), 30U);
+  // A table of ours, as it stands: nothing was assumed to read it.
+  for (const auto& remark : data.remarks) EXPECT_EQ(remark.find("was read so"), std::string::npos) << remark;
+}
+
 TEST(DataSet, EveryPartOfTheFormatIsRead) {
   const TemporaryFolder folder;
   folder.write("01.csv", rows(9));
