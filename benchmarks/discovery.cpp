@@ -1,10 +1,9 @@
 // Answers a folder of cases with hidden effects (layout: README of the set; no answers needed): builds each base
 // diagram, discovers what is missing, writes the answers that the set's scoring program reads, and tells what it cost.
 //
-//   discovery FOLDER RESULTS [--only 003,004] [--jobs 1] [--threads 2] [--seconds 45] [--models] [--unstated] [--tell]
+//   discovery FOLDER RESULTS [--only 003,004] [--jobs 1] [--threads 2] [--seconds 45] [--unstated] [--tell]
 //   [--progress] [--looser 1]
 //
-// --models: whole models are chosen by one score (discover/selection), not one effect after the other.
 // --looser: candidates are simulated so many times looser: no answer may hang on it.
 // --unstated: the data set does not say how noisy the sensor is.
 // Each case runs in a process of its own: one that fails costs that case only.
@@ -29,7 +28,7 @@
 #include "benchmarks/hidden_answer.h"
 #include "blocks/register_all.h"
 #include "discover/effects/all.h"
-#include "discover/selection/select.h"
+#include "discover/selection/discover.h"
 #include "engine/diagram/error.h"
 #include "io/files/atomic_file.h"
 
@@ -46,7 +45,6 @@ struct Wish {
   /// Of CPU, so that a busy machine gives the same answers: then a case ends, on two cores within thirty seconds of
   /// the clock; 0 = never.
   double seconds = 45;
-  bool by_models = false;
   bool tell = false;      ///< everything that was tried
   bool progress = false;  ///< what is being tried, and the CPU seconds until then
   double looser = 1;      ///< see DiscoverOptions
@@ -101,8 +99,7 @@ std::string answer_case(const std::filesystem::path& folder, const Wish& wish) {
     options.progress = [&](const std::string& what, double) {
       fmt::print(stderr, "{} {:7.2f}  {}\n", hidden.id, cpu_seconds(), what);
     };
-  const Discovery found = wish.by_models ? select_model(hidden.diagram, data, all_blocks(), effects, options)
-                                         : discover(hidden.diagram, data, all_blocks(), effects, options);
+  const Discovery found = discover(hidden.diagram, data, all_blocks(), effects, options);
   write_hidden_answer(hidden, data, found, cpu_seconds(), wish.results);
   const std::string late = found.broken_off ? ", stopped by its time limit" : "";
   return fmt::format("{} runs{}; {}{}", found.model_runs, late, found.headline, wish.tell ? everything(found) : "");
@@ -205,8 +202,6 @@ std::optional<Wish> read_wish(int argc, char** argv) {
       wish.seconds = std::atof(next().c_str());
     } else if (word == "--looser") {
       wish.looser = std::atof(next().c_str());
-    } else if (word == "--models") {
-      wish.by_models = true;
     } else if (word == "--unstated") {
       wish.noise = Noise::unstated;
     } else if (word == "--tell") {
@@ -228,11 +223,10 @@ std::optional<Wish> read_wish(int argc, char** argv) {
 int main(int argc, char** argv) {
   const auto wish = read_wish(argc, argv);
   if (!wish) {
-    fmt::print(
-        stderr,
-        "discovery FOLDER RESULTS [--only 003,004] [--jobs 1] [--threads 2] [--seconds 45] [--models] [--unstated] "
-        "[--tell] [--progress] [--looser 1]\n"
-        "FOLDER holds one folder with task.json and recordings per case; answers go to RESULTS.\n");
+    fmt::print(stderr,
+               "discovery FOLDER RESULTS [--only 003,004] [--jobs 1] [--threads 2] [--seconds 45] [--unstated] "
+               "[--tell] [--progress] [--looser 1]\n"
+               "FOLDER holds one folder with task.json and recordings per case; answers go to RESULTS.\n");
     return 2;
   }
   std::filesystem::create_directories(wish->results);

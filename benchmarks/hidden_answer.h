@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "benchmarks/hidden_case.h"
-#include "discover/search/discover.h"
+#include "discover/search/discovery.h"
 
 namespace hysteron {
 

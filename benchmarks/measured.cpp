@@ -22,7 +22,7 @@
 
 #include "blocks/register_all.h"
 #include "discover/effects/all.h"
-#include "discover/search/discover.h"
+#include "discover/selection/discover.h"
 #include "engine/diagram/error.h"
 #include "engine/program/program.h"
 #include "fit/model/model.h"
@@ -41,7 +41,6 @@ struct Device {
   std::string name, diagram, data;
 };
 
-/// In the order of the table in docs/discovery-by-steps.md.
 std::vector<Device> devices() {
   std::vector<Device> list;
   for (const char* name : {"piezo_stack", "piezo_stack_more", "silverbox", "silverbox_held", "mr_damper_a",

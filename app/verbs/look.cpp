@@ -16,8 +16,8 @@
 #include "app/cli/load.h"
 #include "app/cli/target.h"
 #include "discover/placement/add.h"
-#include "discover/search/check.h"
-#include "discover/selection/select.h"
+#include "discover/selection/check.h"
+#include "discover/selection/discover.h"
 #include "engine/diagram/error.h"
 #include "engine/diagram/stop.h"
 #include "io/data/same_rows.h"
@@ -158,7 +158,6 @@ struct Wish {
   Diagram diagram{};
   DataSet given{};
   bool is_check = false;
-  bool by_models = false;                  ///< --search models
   std::chrono::duration<double> within{};  ///< the time that --within leaves
 };
 
@@ -174,16 +173,6 @@ Wish read_wish(const Arguments& arguments, const Watch& watch) {
   wish.diagram = load_diagram(arguments, watch);
   const ProgramPointer program = compile_file(wish.diagram);
   wish.is_check = arguments.has("--check");
-  const std::string how = arguments.has("--search") ? arguments.text("--search") : wish.is_check ? "steps" : "models";
-  if (how != "steps" && how != "models")
-    fail("bad_command_line", "--search", json_quoted(how) + " is no way to search",
-         "write --search=models or --search=steps");
-  wish.by_models = how == "models";
-  if (wish.by_models && wish.is_check)
-    fail("bad_command_line", "--search", "--check always searches by steps, with all parameters of the model held",
-         "leave out --search, or --check");
-  if (settings.keeps_table && !wish.by_models)
-    fail("bad_command_line", "--keep-table", "a search by steps has no table of models", "leave it out");
   wish.given = load_data(arguments, *program);
   need_moving_outputs(wish.given, *program);
   wish.within = std::chrono::duration<double>(arguments.seconds("--within", std::numeric_limits<double>::infinity()));
@@ -217,10 +206,8 @@ Looked search(const std::string& verb, Wish& wish, const DataSet& data, const Wa
         looked.check = check(wish.diagram, data, registry(), wish.effects, settings);
         looked.found = looked.check->discovery;
       } else {
-        if (verb == "diagnose") settings.max_steps = 1;
-        looked.found = wish.by_models       ? select_model(wish.diagram, data, registry(), wish.effects, settings)
-                       : verb == "discover" ? discover(wish.diagram, data, registry(), wish.effects, settings)
-                                            : diagnose(wish.diagram, data, registry(), wish.effects, settings);
+        looked.found = verb == "discover" ? discover(wish.diagram, data, registry(), wish.effects, settings)
+                                          : diagnose(wish.diagram, data, registry(), wish.effects, settings);
       }
     });
   } catch (const Stopped&) {
@@ -315,9 +302,6 @@ std::vector<OptionSpec> look_options() {
           options::data(true),
           {"--only", "EFFECT", "consider only this effect (and others: with commas, or further --only)", false, true},
           {"--free", "PATH", "this parameter may be refitted too, e.g. stage.gain", false, true},
-          {"--search", "HOW",
-           "\"models\" (default): whole models by one score; \"steps\": one effect after the other, by rules", false,
-           false},
           {"--exact", "", "take the parameters that are not free as exact: other values are not tried", false, false},
           options::effects(),
           options::threads("candidates"),

@@ -123,10 +123,13 @@ CandidateModel with_effect(const FitContext& context, const CandidateModel& befo
     return c;
   }
   c.diagram = c.change.diagram;
-  c.zero_held = before.zero_held;
-  const bool new_zero = effect.moves_zero && !c.zero_held && !at.offset_is_free;
+  const bool new_zero = effect.moves_zero && !at.offset_is_free;
   c.placed.push_back({&effect, law, place, c.change.name, new_zero ? at.zeros : std::vector<std::string>{}});
   if (law.reweighs) c.placed.back().weights = at.weights;
+  if (before.program)
+    for (const auto* anew : {&c.placed.back().zeros, &c.placed.back().weights})
+      for (const auto& path : *anew)
+        if (const auto* p = before.program->find_parameter(path)) c.placed.back().before[path] = p->value;
   const int fresh = static_cast<int>(c.placed.size()) - 1;
   try {
     if (before.program) refuse_new_loop(*before.program, *compile(c.diagram, *context.registry), place.at);
@@ -154,11 +157,32 @@ CandidateModel refit(const FitContext& context, const CandidateModel& candidate,
   c.of_recordings = candidate.of_recordings;
   c.starts = candidate.starts;
   c.change = candidate.change;
-  c.zero_held = candidate.zero_held;
   c.fit.estimates = candidate.fit.estimates;  // of what is held
   c.cuts = candidate.cuts;
   return guarded(context, std::move(c), effort, -1, 0);
 }
+
+namespace {
+
+/// Numbers of the user that were found anew with an effect hold only beside it: they are again what they were, or
+/// another's that stands and finds them anew, too.
+void give_back(CandidateModel& c, const PlacedEffect& leaving) {
+  Trial values;
+  for (const auto& [path, value] : leaving.before) {
+    const auto finds_it = [&, at = path](const PlacedEffect& s) { return s.before.contains(at); };
+    const auto other = std::find_if(c.placed.begin(), c.placed.end(), finds_it);
+    if (other != c.placed.end()) {
+      other->before[path] = value;
+      continue;
+    }
+    if (c.program->find_parameter(path) == nullptr) continue;
+    values.push_back({parameter_index(*c.program, path), value, -1});
+    std::erase_if(c.fit.estimates, [&, at = path](const ParameterEstimate& e) { return e.path == at; });
+  }
+  if (!values.empty()) c.diagram = with_parameters(c.diagram, *c.program, values);
+}
+
+}  // namespace
 
 CandidateModel without(const FitContext& context, const CandidateModel& candidate, std::size_t standing) {
   CandidateModel c;
@@ -185,8 +209,8 @@ CandidateModel without(const FitContext& context, const CandidateModel& candidat
     return std::any_of(leaving.law.free.begin(), leaving.law.free.end(),
                        [&](const LawParameter& p) { return e.path == parameter_path(leaving.name, leaving.law, p); });
   });
-  c.zero_held = candidate.zero_held;
   c.parameters = candidate.parameters - spent(candidate, static_cast<int>(standing));
+  give_back(c, leaving);
   return c;
 }
 

@@ -21,9 +21,10 @@ struct PlacedEffect {
   const Effect* effect = nullptr;
   Law law;
   Place place;
-  std::string name;                    ///< path of its choice
-  std::vector<std::string> zeros;      ///< the user's constants that are found anew with it (Effect::moves_zero)
-  std::vector<std::string> weights{};  ///< weights of operators that are (Law::reweighs)
+  std::string name;                        ///< path of its choice
+  std::vector<std::string> zeros;          ///< the user's constants that are found anew with it (Effect::moves_zero)
+  std::vector<std::string> weights{};      ///< weights of operators that are (Law::reweighs)
+  std::map<std::string, double> before{};  ///< of these, what they were without the effect [SI]
 };
 
 /// A value of one recording alone: the amplitude of a line whose phase is another one in each.
@@ -52,8 +53,6 @@ struct CandidateModel {
   /// Where rows of some recordings are too coarse for the line of the last effect: the same without that line, where
   /// they are fine enough. What it takes away there proves it (see `proved`).
   std::optional<Prediction> without_line;
-  /// Laws that move the zero (Effect::moves_zero) leave it where the user has it: it is a calibration's, or nobody's.
-  bool zero_held = false;
   int parameters = 0;  ///< that the effects spend: of their laws, determined and not held at a bound
   /// Of them, found on validate recordings: what they take away there by themselves is no evidence.
   int found_on_validation = 0;

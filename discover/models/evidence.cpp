@@ -150,6 +150,12 @@ void Evidence::known_lines(std::vector<std::optional<WanderingLine>> lines,
   lines_ = std::move(lines);
 }
 
+LeftOut Evidence::line_of_user(int output) const {
+  const auto o = static_cast<std::size_t>(output);
+  const bool is_known = o < lines_.size() && lines_[o] && lines_[o]->by_user;
+  return is_known ? LeftOut(spans_[o], LineSpan::Part::all) : LeftOut();
+}
+
 void Evidence::settle(const Prediction& best) {
   Prediction with_zeros = best;
   add_zeros(base_, *judge_, with_zeros);

@@ -99,6 +99,9 @@ class Evidence {
   /// no evidence, from the next settle() on. `without`: what that model predicts without them.
   void known_lines(std::vector<std::optional<WanderingLine>> lines, const std::function<Prediction()>& without = {});
 
+  /// A line of the user's own model on this output: nobody knows its phase in a recording that was not there yet.
+  LeftOut line_of_user(int output) const;
+
   ModelError error(const Prediction& prediction) const;
   /// Whitened residual of one recording, outputs one behind the other.
   std::vector<double> residual(const Prediction& prediction, int recording) const {

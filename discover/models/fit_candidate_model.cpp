@@ -163,6 +163,33 @@ std::string name_of_fit(const Program& program, const std::vector<FreeParameter>
   return name;
 }
 
+/// What was held this time keeps what was said of it last time: parts that are fitted apart have nothing to do with
+/// each other, and no number of the one is correlated with one of the other.
+void keep_estimates(FitResult& now, FitResult before) {
+  std::vector<int> place(before.estimates.size(), -1);  // among those of now
+  for (std::size_t i = 0; i < before.estimates.size(); ++i) {
+    auto& e = before.estimates[i];
+    if (std::any_of(now.estimates.begin(), now.estimates.end(),
+                    [&](const ParameterEstimate& n) { return n.path == e.path && n.recording == e.recording; }))
+      continue;
+    place[i] = static_cast<int>(now.estimates.size());
+    now.estimates.push_back(std::move(e));
+  }
+  std::vector<std::size_t> kept;  // rows of what was correlated before
+  for (std::size_t k = 0; k < before.correlated.size(); ++k)
+    if (place[static_cast<std::size_t>(before.correlated[k])] >= 0) kept.push_back(k);
+  const std::size_t own = now.correlated.size(), all = own + kept.size(), was = before.correlated.size();
+  std::vector<double> correlation(all * all, 0.0);
+  for (std::size_t i = 0; i < own; ++i)
+    for (std::size_t j = 0; j < own; ++j) correlation[i * all + j] = now.correlation[i * own + j];
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    for (std::size_t j = 0; j < kept.size(); ++j)
+      correlation[(own + i) * all + own + j] = before.correlation[kept[i] * was + kept[j]];
+    now.correlated.push_back(place[static_cast<std::size_t>(before.correlated[kept[i]])]);
+  }
+  now.correlation = std::move(correlation);
+}
+
 /// Fits the diagram of `c`, which is compiled, in the parameters of the chosen effects, and simulates only what these
 /// `outputs` see; `fresh` = index of the effect that starts from its law instead of its values, -1 = none.
 /// The answer: steps_from().
@@ -221,11 +248,7 @@ double fit_chosen(const FitContext& context, CandidateModel& c, Effort effort, i
   }
   keep_cuts(c, model, effort);
   c.diagram = with_parameters(c.diagram, *c.program, c.fit.values);
-  // What was held this time keeps what was said of it last time.
-  for (auto& e : before.estimates)
-    if (std::none_of(c.fit.estimates.begin(), c.fit.estimates.end(),
-                     [&](const ParameterEstimate& now) { return now.path == e.path && now.recording == e.recording; }))
-      c.fit.estimates.push_back(std::move(e));
+  keep_estimates(c.fit, std::move(before));
   return steps;
 }
 

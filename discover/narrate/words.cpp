@@ -227,7 +227,7 @@ Candidate candidate_of(const TriedEffect& t, int step) {
   if (t.candidate.ok) {
     c.parameters = t.candidate.parameters;
     c.error = t.candidate.error_of;
-    c.score = t.candidate.score();
+    c.score = t.score;
     c.found = found_parameters(t.candidate, t.excitation);
     c.summary = summary_of(t.candidate, t.candidate.placed.size() - 1, t.excitation);
   }

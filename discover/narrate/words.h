@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "discover/search/discover.h"
+#include "discover/search/discovery.h"
 
 namespace hysteron {
 

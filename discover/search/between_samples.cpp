@@ -16,10 +16,9 @@ namespace {
 /// Of what the model leaves: who bends less than that (rms, of what the input varies) explains none of it.
 constexpr double hardly_bends = 0.02;
 
-FitContext with_input(const SearchState& state, const std::string& input, Between between) {
-  DataSet other = *state.data;
+FitContext with_input(FitContext context, const std::string& input, Between between) {
+  DataSet other = *context.data;
   set_way(other, input, between);
-  FitContext context = state.context;
   context.data = std::make_shared<const DataSet>(std::move(other));
   return context;
 }
@@ -75,12 +74,12 @@ DataSet as_found(DataSet data, const Discovery& found) {
   return data;
 }
 
-void tell_unused(SearchState& state) {
+void tell_unused(SearchState& state, const SmoothInput& smooth) {
   state.d.warnings.push_back(
       fmt::format("{} moves smoothly between its samples, it seems: with it the error of what was found falls from "
                   "{:.3g} % to {:.3g} %. The search that takes it into account was broken off; write "
                   "\"between_samples\": \"smooth\" at its column and begin with that.",
-                  state.smooth->input, 100 * state.smooth->before, 100 * state.smooth->after));
+                  smooth.input, 100 * smooth.before, 100 * smooth.after));
 }
 
 void tell_smooth_inputs(SearchState& state) {
@@ -98,7 +97,7 @@ void tell_other_ways(SearchState& state) {
     const Between between = given_way(*state.data, input);
     if (between == Between::smooth || state.data->notes.count(input) == 0) continue;
     const bool held = between == Between::hold;
-    const FitContext context = with_input(state, input, held ? Between::linear : Between::hold);
+    const FitContext context = with_input(state.context, input, held ? Between::linear : Between::hold);
     const CandidateModel c = base_model(context, state.user, Effort::full);
     const ModelError& was = state.base.error_of;
     if (!c.ok || !explains(c.error_of, was, rules::structure_share) || is_explained_otherwise(state, c)) continue;
@@ -110,13 +109,13 @@ void tell_other_ways(SearchState& state) {
   }
 }
 
-std::optional<SmoothInput> find_smooth_input(const SearchState& state) {
+std::optional<SmoothInput> find_smooth_input(const SearchState& state, const FitContext& fits) {
   const ModelError& was = state.current.error_of;
   for (const auto& input : state.base_model->program().input_names) {
     if (state.stopped()) return {};
     if (given_way(*state.data, input) != Between::linear) continue;
     if (bend_of(*state.data, input) < hardly_bends * was.nrmse_validate) continue;
-    const FitContext context = with_input(state, input, Between::smooth);
+    const FitContext context = with_input(fits, input, Between::smooth);
     CandidateModel present = state.current;
     present.prediction = {};  // it is of the data as they were said to be
     const CandidateModel c = refit(context, present, Effort::screen);

@@ -4,10 +4,11 @@
 #include <optional>
 #include <string>
 
-#include "discover/search/discover.h"
+#include "discover/search/discovery.h"
 
 namespace hysteron {
 
+struct FitContext;
 struct SearchState;
 
 /// Inputs that this search takes to move smoothly are told, with the cure.
@@ -21,10 +22,10 @@ void tell_other_ways(SearchState& state);
 /// An input that bends between its samples by all that the present model leaves: straight lines through them are
 /// smaller than the signal, the more the quicker it is, which nothing in a device looks like but would be sold as a
 /// mode of its structure. No parameter is added, and most of what stands above the noise must go in recordings of both
-/// roles.
-std::optional<SmoothInput> find_smooth_input(const SearchState& state);
+/// roles. `fits`: in which the present model is fitted again with such an input.
+std::optional<SmoothInput> find_smooth_input(const SearchState& state, const FitContext& fits);
 
-/// Tells of such an input (SearchState::smooth) where the search that takes it into account was broken off.
-void tell_unused(SearchState& state);
+/// Tells of such an input where the search that takes it into account was broken off.
+void tell_unused(SearchState& state, const SmoothInput& smooth);
 
 }  // namespace hysteron

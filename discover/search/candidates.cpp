@@ -23,13 +23,11 @@ bool contains(const Names& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// The place moves something that was measured, and of that none but these outputs; any will do where none is named.
-bool may_stand(const SearchState& state, const Place& place, const Names& outputs) {
-  auto moved = outputs_moved(state, state.current, place.moves_from());
-  if (moved.empty()) return outputs.empty();
-  std::erase_if(moved, [&](const std::string& o) { return !contains(state.base_model->outputs(), o); });
-  return !moved.empty() && (outputs.empty() || std::all_of(moved.begin(), moved.end(),
-                                                           [&](const std::string& o) { return contains(outputs, o); }));
+/// The place moves something that was measured, or nobody knows what.
+bool may_stand(const SearchState& state, const Place& place) {
+  const auto moved = outputs_moved(state, state.current, place.moves_from());
+  return moved.empty() || std::any_of(moved.begin(), moved.end(),
+                                      [&](const std::string& o) { return contains(state.base_model->outputs(), o); });
 }
 
 /// The two strongest lines of each output that the place moves [Hz].
@@ -84,14 +82,14 @@ bool in_another_block(const Effect& a, const Place& at_a, const Effect& b, const
   return varies(a, at_a) && varies(b, at_b) && at_a.at != at_b.at;
 }
 
-}  // namespace
-
+/// One of its family stands in the present model.
 bool standing(const SearchState& state, const Effect& e) {
   if (e.side == Side::other_axis) return false;  // each axis has its own; a wire that has it is left out by places_of
   return std::any_of(state.current.placed.begin(), state.current.placed.end(),
                      [&](const PlacedEffect& s) { return s.effect->family == e.family; });
 }
 
+/// One of its family stands in this model on the way to an output that the place moves: each axis has its own.
 bool standing_before(const SearchState& state, const CandidateModel& model, const Effect& e, const Place& place) {
   if (e.side == Side::other_axis) return false;
   const auto here = outputs_moved(state, model, place.moves_from());
@@ -103,11 +101,7 @@ bool standing_before(const SearchState& state, const CandidateModel& model, cons
   });
 }
 
-bool taken_up(const SearchState& state, const Effect& effect) {
-  return std::any_of(state.current.placed.begin(), state.current.placed.end(),
-                     [&](const PlacedEffect& s) { return look_alike(*s.effect, effect); });
-}
-
+/// The candidate of the same family whose law cannot tell its place from that of `t`; nullptr if there is none.
 TriedEffect* same_finding(std::vector<TriedEffect>& kept, const TriedEffect& t) {
   if (t.effect->commutes == Commutes::nothing) return nullptr;
   for (auto& k : kept)
@@ -117,50 +111,15 @@ TriedEffect* same_finding(std::vector<TriedEffect>& kept, const TriedEffect& t) 
   return nullptr;
 }
 
-namespace {
-
-/// Outputs that none of the chosen effects moves.
-template <class Chosen>
-Names outputs_not_moved(const SearchState& state, const Chosen& chosen) {
-  Names list = state.base_model->outputs();
-  for (const auto& s : state.current.placed) {
-    if (!chosen(s)) continue;
-    const auto by_it = outputs_moved(state, state.current, s.place.moves_from());
-    if (by_it.empty()) return {};  // nobody knows which
-    std::erase_if(list, [&](const std::string& o) { return contains(by_it, o); });
-  }
-  return list;
-}
-
-}  // namespace
-
-std::vector<std::string> untouched_outputs(const SearchState& state) {
-  return outputs_not_moved(state, [](const PlacedEffect&) { return true; });
-}
-
-std::vector<std::string> outputs_without(const SearchState& state, const std::string& family) {
-  return outputs_not_moved(state, [&](const PlacedEffect& s) { return s.effect->family == family; });
-}
-
-int found_effects(const SearchState& state) {
-  std::set<std::string> names;
-  for (const auto& s : state.current.placed) names.insert(s.effect->id);
-  return static_cast<int>(names.size());
-}
-
-namespace {
-
 /// Every effect at every place where it may enter, with what the recordings show there.
-std::vector<TriedEffect> everywhere(SearchState& state, int step, const Names& outputs,
-                                    const std::vector<const Effect*>& only) {
+std::vector<TriedEffect> everywhere(SearchState& state, int step) {
   std::vector<TriedEffect> list;
   std::vector<Place> places;
   for (const auto& e : state.effects.list()) {
-    if (!state.wanted(e) || (!only.empty() && std::find(only.begin(), only.end(), &e) == only.end())) continue;
+    if (!state.wanted(e)) continue;
     auto where = places_of(e, state.current.diagram, state.registry, state.data.get());
-    std::erase_if(where, [&](const Place& p) {
-      return standing_before(state, state.current, e, p) || !may_stand(state, p, outputs);
-    });
+    std::erase_if(where,
+                  [&](const Place& p) { return standing_before(state, state.current, e, p) || !may_stand(state, p); });
     if (where.empty() && standing(state, e)) continue;
     if (where.empty() && step == 1) state.d.refused.push_back({e.id, "", why_no_place(e, state.registry)});
     for (const auto& p : where) {
@@ -235,20 +194,19 @@ std::vector<int> measured_moved(const SearchState& state, const CandidateModel& 
 namespace {
 
 /// Little is seen of it, and the score says what that is worth.
-bool seen_a_little(const SearchState& state, const TriedEffect& t) {
+bool seen_a_little(const TriedEffect& t) {
   const bool beside_what_rests =
       t.effect->side != Side::none && !(t.excitation.side_highest > t.excitation.side_lowest);
-  return state.by_score && t.effect->seen_by_degrees && !beside_what_rests;
+  return t.effect->seen_by_degrees && !beside_what_rests;
 }
 
 }  // namespace
 
-std::vector<TriedEffect> list_candidates(SearchState& state, int step, const std::vector<std::string>& outputs,
-                                         const std::vector<const Effect*>& only) {
+std::vector<TriedEffect> list_candidates(SearchState& state, int step) {
   state.hidden.clear();
   std::vector<TriedEffect> kept;
-  for (auto& t : everywhere(state, step, outputs, only)) {
-    if (const std::string why = t.effect->unseen(t.excitation); !why.empty() && !seen_a_little(state, t)) {
+  for (auto& t : everywhere(state, step)) {
+    if (const std::string why = t.effect->unseen(t.excitation); !why.empty() && !seen_a_little(t)) {
       if (step == 1) state.d.refused.push_back({t.effect->id, t.place.where(), why});
       if (t.effect->may_hide && t.effect->may_hide(t.excitation)) state.hidden.push_back(std::move(t));
       continue;
@@ -267,51 +225,6 @@ std::vector<TriedEffect> list_candidates(SearchState& state, int step, const std
       begin_at_ripples(state, t);
     }
   return kept;
-}
-
-std::vector<Choice> choices_on(const SearchState& state, const CandidateModel& model,
-                               const std::function<bool(const Effect&)>& may,
-                               const std::function<std::vector<Law>(const Effect&, const Excitation&)>& laws) {
-  std::vector<Choice> list;
-  for (const auto& e : state.effects.list()) {
-    if (!state.wanted(e) || !may(e)) continue;
-    auto places = places_of(e, model.diagram, state.registry, state.data.get());
-    std::erase_if(places, [&](const Place& p) { return standing_before(state, model, e, p); });
-    if (places.empty()) continue;
-    const auto at = circumstances_on(state, model, places);
-    for (std::size_t p = 0; p < places.size(); ++p) {
-      if (!e.unseen(at[p]).empty()) continue;
-      for (auto& law : laws(e, at[p])) list.push_back({&e, std::move(law), places[p], at[p]});
-    }
-  }
-  return list;
-}
-
-double blur(const CandidateModel& c) {
-  const double n = c.error_of.n();
-  return rules::of_noise * (rules::of_noise * n + 2 * std::sqrt(n));
-}
-
-void join_twins(std::vector<TriedEffect>& tried) {
-  for (std::size_t i = 0; i < tried.size(); ++i) {
-    if (tried[i].twin < 0) continue;
-    TriedEffect& first = tried[static_cast<std::size_t>(tried[i].twin)];
-    TriedEffect& second = tried[i];
-    std::erase(first.same_places, second.place.where());
-    if (second.candidate.ok &&
-        (!first.candidate.ok || second.candidate.score() < first.candidate.score() + blur(first.candidate))) {
-      first.same_places.push_back(first.place.where());
-      std::swap(first.place, second.place);
-      std::swap(first.excitation, second.excitation);
-      std::swap(first.laws, second.laws);
-      std::swap(first.law, second.law);
-      std::swap(first.candidate, second.candidate);
-      std::swap(first.laws_tried, second.laws_tried);
-    } else {
-      first.same_places.push_back(second.place.where());
-    }
-  }
-  std::erase_if(tried, [](const TriedEffect& t) { return t.twin >= 0; });
 }
 
 }  // namespace hysteron

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "discover/search/discover.h"
+#include "discover/search/discovery.h"
 
 namespace hysteron {
 
@@ -21,6 +21,12 @@ struct JudgedSearch {
   StructureSearch search;
   Where where = Where::validation;
   Requirement requirement{};
+};
+
+/// The best structure on top of the user's model beside the effects that were selected.
+struct CompetingStructure {
+  JudgedSearch judged;  ///< its requirement is passed where it is told in place of the effects
+  double by = 0;        ///< its score less that of the selected model
 };
 
 /// All of them into the record. `why_told`: why the best one is told to people, "" if it is not.

@@ -1,32 +1,102 @@
-// Decides which candidates explain the recordings as well as the best one. What would tell them apart:
-// tie_experiment.cpp.
-#include <algorithm>
-#include <cmath>
+#include "discover/search/ties.h"
 
-#include "discover/placement/excitation.h"
-#include "discover/search/search_state.h"
-#include "discover/wiring/wiring.h"
+#include <algorithm>
+
+#include "discover/placement/add.h"
 
 namespace hysteron {
 namespace {
 
-/// With few recordings a spare gain tells look-alikes apart that are none: each gets one, and an offset, before the
-/// comparison.
-double tie_score(SearchState& state, const TriedEffect& t, bool few) {
-  if (!few || t.effect->straight) return t.candidate.tie_score();
-  const Effect* calibration = state.effects.find("calibration");
-  if (calibration == nullptr) return t.candidate.tie_score();
-  const auto places = places_of(*calibration, t.candidate.diagram, state.registry);
-  if (places.empty()) return t.candidate.tie_score();
-  const auto at = circumstances_at(t.candidate.diagram, state.registry, *state.data, places.front(),
-                                   free_anyway(state.context, t.candidate));
-  if (!calibration->unseen(at).empty()) return t.candidate.tie_score();
-  const CandidateModel free = with_effect(state.context, t.candidate, *calibration, calibration->laws(at).front(),
-                                          places.front(), at, Effort::full);
-  return free.ok ? std::min(free.tie_score(), t.candidate.tie_score()) : t.candidate.tie_score();
+/// So many times as fast as it wrote rows a recorder may sample: few write every sample that they take. To ask for more
+/// is to ask for another one.
+constexpr double faster_recorder = 8;
+
+bool is_of_sensor(const Effect& e) { return e.of_the_sensor() && e.id != "calibration"; }
+
+/// Inputs of the user's diagram that lead to what the candidate moves, and what it reads besides; empty = nobody knows.
+std::vector<std::string> inputs_before(const SearchState& state, const TriedEffect& t) {
+  std::vector<std::string> list;
+  if (t.outputs.empty()) return list;
+  for (const auto& input : state.base_model->program().input_names) {
+    const auto moved = outputs_moved(state, t.candidate, input);
+    const auto is_moved = [&](const std::string& o) { return std::find(moved.begin(), moved.end(), o) != moved.end(); };
+    if (input == t.place.side || std::any_of(t.outputs.begin(), t.outputs.end(), is_moved)) list.push_back(input);
+  }
+  return list;
+}
+
+/// Compiled anew: fitted values stand in the diagram. Of an effect of the sensor also what lies before it.
+Rival rival_of(const SearchState& state, const TriedEffect& t) {
+  const CandidateModel& c = t.candidate;
+  Rival r;
+  r.effect = t.effect->id;
+  r.program = compile(c.diagram, state.registry);
+  if (is_of_sensor(*t.effect))
+    r.motion = compile(remove_effect(c.diagram, state.registry, c.placed.back().name, t.effect->id), state.registry);
+  if (!t.place.side.empty()) r.side = {t.place.side, t.effect->side};
+  r.look_alikes = t.effect->look_alikes;
+  r.inputs = inputs_before(state, t);
+  r.hidden = t.hidden;
+  return r;
+}
+
+/// A second sensor goes before every drive where it is asked for: would one of them do without it?
+bool no_drive_tells(const Rivals& rivals, const Device& device, Sight sight, Menu& menu) {
+  sight.second_sensor = false;
+  auto [e, drives] = separate(rivals, device, sight);
+  add_items(menu, without_choice(std::move(drives)));
+  return !e || e->rivals_told == 0;
+}
+
+/// The same menu, sampled faster: takes its place if that tells more.
+void try_faster_rows(const Rivals& rivals, Device device, const Sight& sight, Separation& so_far) {
+  const auto told = [](const Experiment& x) { return std::pair(x.rivals_told, x.separation); };
+  device.shortest_step /= faster_recorder;
+  auto [again, menu] = separate(rivals, device, sight);
+  for (auto& item : menu.items) item.faster_rows = faster_recorder;
+  const bool more = again && (!so_far.best || told(*again) > told(*so_far.best));
+  add_items(so_far.menu, more ? std::move(menu) : without_choice(std::move(menu)));
+  if (more) so_far.best = std::move(again);
+}
+
+Separation experiment_among(SearchState& state, const Rivals& rivals) {
+  Sight sight{state.base_model->outputs(), state.evidence->noise().white(), {}};
+  for (int o = 0; o < static_cast<int>(sight.outputs.size()); ++o)
+    sight.free_zero.push_back(state.base_model->zero_per_recording(o));
+  const Device device = device_of(state.base_model->program(), *state.data);
+  Separation found = separate(rivals, device, sight);
+  auto& e = found.best;
+  const int all = static_cast<int>(rivals.models.size()) - 1;
+  // Few recordings of one kind may just have been too slow.
+  const bool few = static_cast<int>(state.evidence->recordings().size()) <= rules::few_recordings;
+  if (few && !(e && e->rivals_told == all && e->separation > rules::experiment_tells))
+    try_faster_rows(rivals, device, sight, found);
+  if (e && e->word == "reference_sensor" && !few)
+    e->another_instrument = no_drive_tells(rivals, device, sight, found.menu);
+  return found;
+}
+
+/// The recording that would separate two candidates best, and all that were simulated.
+Separation experiment_between(SearchState& state, const TriedEffect& a, const TriedEffect& b) {
+  return experiment_among(state, {{rival_of(state, a), rival_of(state, b)}, would_tell});
+}
+
+/// The experiment of a tie that another rival joins: chosen anew, to tell all of them apart.
+Separation with_another_rival(SearchState& state, const Experiment& so_far, const TriedEffect& rival) {
+  Rivals rivals = *so_far.rivals;
+  rivals.models.push_back(rival_of(state, rival));
+  return experiment_among(state, rivals);
 }
 
 }  // namespace
+
+bool could_hold(const SearchState& state, const Law& law, const Effect& e) {
+  return std::any_of(law.holds.begin(), law.holds.end(), [&](const std::string& id) {
+    const Effect* held = state.effects.find(id);
+    // A curve has no memory, whatever else looks like it.
+    return held != nullptr && (held == &e || (look_alike(*held, e) && held->is_memory == e.is_memory));
+  });
+}
 
 bool is_the_winner_and_more(const SearchState& state, const TriedEffect& t, const Effect& winner) {
   const auto& contained = t.effect->contains;
@@ -34,106 +104,20 @@ bool is_the_winner_and_more(const SearchState& state, const TriedEffect& t, cons
          could_hold(state, t.laws[t.law], winner);
 }
 
-void sharpen(SearchState& state, TriedEffect& t) {
-  if (t.sharp || state.stopped()) return;
-  t.sharp = true;
-  CandidateModel finer = refit(state.context, t.candidate, Effort::final);
-  if (!finer.ok) return;
-  finer.error_of = state.evidence->error(finer.prediction);
-  t.candidate = std::move(finer);
-  // Where it goes on to, it may no longer be itself.
-  if (const auto why = why_implausible(*t.effect, t.laws[t.law], t.candidate, t.excitation); !why.empty()) {
-    t.admitted = false;
-    t.reason = why;
-  }
+void add_tie(SearchState& state, int step, FoundStep& found, const TriedEffect& winner, const TriedEffect& rival) {
+  found.ties.push_back(candidate_of(rival, step));
+  if (state.stopped()) return;
+  auto [e, menu] =
+      found.experiment ? with_another_rival(state, *found.experiment, rival) : experiment_between(state, winner, rival);
+  if (e || !found.experiment) found.menu = std::move(menu);
+  if (!e) return;
+  found.experiment_would_tell = e->rivals_told > 0;
+  found.experiment = std::move(e);
 }
 
-/// Where structure is left, neither law is right, and a difference counts only if it is there wherever one looks, or
-/// if the rival leaves far more.
-bool as_imperfect(const SearchState& state, const TriedEffect& rival, const TriedEffect& winner) {
-  const double left = winner.candidate.error_of.over_floor() - 1, by_rival = rival.candidate.error_of.over_floor() - 1;
-  if (left + 1 <= rules::floor_gate || by_rival > rules::far_more * left) return false;
-  return std::abs(vuong(state.evidence->pieces(rival.candidate.prediction),
-                        state.evidence->pieces(winner.candidate.prediction))) < rules::pieces_tell;
-}
-
-double lost_by_the_fit(const TriedEffect& t) {
-  if (!(t.fall_train > rules::claim_fall)) return 0;
-  const double of_a_number = std::max(0.0, t.fall_validate / t.fall_train - rules::usual_split);
-  return std::min(static_cast<double>(own_values(t).size()) * of_a_number, rules::lost_at_most * t.fall_validate);
-}
-
-std::vector<int> ties_of(SearchState& state, const std::vector<TriedEffect>& tried, std::size_t winner) {
-  const bool few = static_cast<int>(state.evidence->recordings().size()) <= rules::few_recordings && !state.stopped();
-  const TriedEffect& w = tried[winner];
-  const bool spare_gain = few && !w.effect->straight;  // beside that one the spare gain is the winner itself
-  std::vector<int> ties;
-  double own = w.candidate.tie_score();
-  bool freed = false;
-  for (const std::size_t i : ranking(tried)) {
-    const TriedEffect& t = tried[i];
-    if (i == winner || t.effect->id == w.effect->id || !t.admitted) continue;
-    if (is_the_winner_and_more(state, t, *w.effect)) continue;
-    const double behind = t.candidate.tie_score() - w.candidate.tie_score();
-    bool tied = behind < rules::tie;
-    if (!tied && look_alike(*t.effect, *w.effect))
-      tied = behind < rules::tie + std::max(lost_by_the_fit(t), lost_by_the_fit(w));
-    if (!tied && spare_gain && look_alike(*t.effect, *w.effect)) {
-      if (!freed) own = tie_score(state, w, true);
-      freed = true;
-      tied = tie_score(state, t, true) - own < rules::tie;
-    }
-    tied = tied || (look_alike(*t.effect, *w.effect) && as_imperfect(state, t, w));
-    if (tied) ties.push_back(static_cast<int>(i));
-  }
-  return ties;
-}
-
-int plainer_first(const std::vector<TriedEffect>& tried, int winner) {
-  const TriedEffect& w = tried[static_cast<std::size_t>(winner)];
-  // Several sensors that are wrong at once are not plainer than a device that ages.
-  const auto elsewhere = [&](const TriedEffect& t) {
-    return t.effect == w.effect && t.admitted && t.outputs != w.outputs;
-  };
-  const auto& plainer = w.effect->plainer;
-  if (std::any_of(tried.begin(), tried.end(), elsewhere)) return winner;
-  for (const std::size_t i : ranking(tried)) {
-    const TriedEffect& t = tried[i];
-    if (t.admitted && t.outputs == w.outputs &&
-        std::find(plainer.begin(), plainer.end(), t.effect->id) != plainer.end() &&
-        t.candidate.tie_score() - w.candidate.tie_score() < rules::tie)
-      return static_cast<int>(i);
-  }
-  return winner;
-}
-
-void as_on_another_axis(const SearchState& state, std::vector<TriedEffect>& tried, int& winner,
-                        std::vector<int>& ties) {
-  const auto stands = [&](int i) {
-    const std::string& id = tried[static_cast<std::size_t>(i)].effect->id;
-    return std::any_of(state.current.placed.begin(), state.current.placed.end(),
-                       [&](const PlacedEffect& s) { return s.effect->id == id; });
-  };
-  if (stands(winner)) return;
-  const auto built_alike = std::find_if(ties.begin(), ties.end(), [&](int i) {
-    return stands(i) && stays_itself(state, tried[static_cast<std::size_t>(i)]);
-  });
-  if (built_alike != ties.end()) std::swap(winner, *built_alike);
-}
-
-void sharpen_rivals(SearchState& state, std::vector<TriedEffect>& tried, std::size_t winner) {
-  TriedEffect& w = tried[winner];
-  const double reach = rules::tie + blur(w.candidate);
-  const double best = w.candidate.tie_score();
-  bool sharp = false;
-  for (auto& t : tried) {
-    if (&t == &w || !t.admitted || t.effect->id == w.effect->id || !look_alike(*t.effect, *w.effect)) continue;
-    const double gap = t.candidate.tie_score() - best;
-    if (gap < rules::tie || gap > reach) continue;
-    if (!sharp) sharpen(state, w);
-    sharp = true;
-    sharpen(state, t);
-  }
+bool would_tell(const Experiment& e, bool hidden) {
+  return e.separation > rules::experiment_tells ||
+         (hidden && e.separation * e.separation * e.rows > 2 * rules::claim_fall);
 }
 
 }  // namespace hysteron

@@ -69,7 +69,11 @@ std::vector<LeftRows> left_rows(const Evidence& evidence, Prediction prediction,
   std::vector<LeftRows> list;
   for (const int r : evidence.recordings())
     for (int o = 0; o < static_cast<int>(model.outputs().size()); ++o)
-      if (!model.measured(r, o).empty()) list.push_back({r, o, residual_rows(model, prediction, r, o)});
+      if (!model.measured(r, o).empty()) {
+        Rows rows = residual_rows(model, prediction, r, o);
+        evidence.line_of_user(o).take_out(static_cast<std::size_t>(r), rows);
+        list.push_back({r, o, std::move(rows)});
+      }
   return list;
 }
 
@@ -149,6 +153,13 @@ double BlockScore::fit_of(const LeftSums& left, int recording) const {
   return score;
 }
 
+std::vector<double> BlockScore::chi2_of(const LeftSums& left) const {
+  std::vector<double> chi2(left.size(), 0.0);
+  for (const auto& b : blocks_)
+    for (std::size_t i = b.first; i < b.last; ++i) chi2[b.of] += left[b.of].squares[i] / b.s2;
+  return chi2;
+}
+
 double BlockScore::price(int numbers) const { return 0.5 * numbers * std::log(std::max(n_eff_, 2.0)); }
 
 double BlockScore::n_eff(int recording) const {
@@ -197,7 +208,7 @@ NoiseModel BlockScore::weights(const Evidence& evidence, const LeftSums& left) c
     w.white = std::sqrt(rows[o] / sure[o]);
     w.one_over_f = 0;
     w.share_is_stated = true;
-    w.left_out = {};
+    w.left_out = evidence.line_of_user(static_cast<int>(o));
   }
   return weights;
 }

@@ -60,6 +60,8 @@ class BlockScore {
   /// The same of one recording.
   double fit_of(const LeftSums& left, int recording) const;
   double price(int numbers) const;  ///< p/2 ln n_eff
+  /// Squares over the noise s^2, of each entry of LeftSums.
+  std::vector<double> chi2_of(const LeftSums& left) const;
   double n_eff() const { return n_eff_; }
   double n_eff(int recording) const;
   /// Weights of a fit that raises the score: rows by 1/(s^2 + V) of their block, over its correlation time, so that

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "discover/models/fit_candidate_model.h"
-#include "discover/search/nominal_parameters.h"
+#include "discover/search/held_numbers.h"
 
 namespace hysteron {
 namespace {

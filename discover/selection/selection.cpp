@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -22,48 +23,6 @@ constexpr int slowest = 2;          // see slowness()
 constexpr int few_renewals = 3;     // of weights, for rivals that may not win
 constexpr std::size_t enriched_names = 4;  // whose richer laws are fitted
 constexpr std::size_t finalists = 3;       // that are fitted until their weights are those of what they leave
-
-/// How many ways of saying one effect were tried: among more of them chance finds more.
-double ln_tried(const std::vector<Addition>& rivals, const Effect& effect) {
-  double n = 0;
-  for (const auto& r : rivals)
-    if (r.tried.effect == &effect) n += static_cast<double>(std::max<std::size_t>(r.tried.laws.size(), 1));
-  return std::log(std::max(n, 1.0));
-}
-
-std::vector<Choice> term_of(const Addition& rival, std::size_t law) {
-  std::vector<Choice> term{{rival.tried.effect, rival.tried.laws[law], rival.tried.place, rival.tried.excitation}};
-  for (const auto& t : rival.also)
-    term.push_back({t.effect, t.laws[std::min(law, t.laws.size() - 1)], t.place, t.excitation});
-  return term;
-}
-
-/// Type of the block that the effect varies there; "" where it stands on a wire.
-std::string varied_type(const SearchState& state, const TriedEffect& t) {
-  if (t.effect->way != Way::vary && t.place.by.empty()) return "";
-  const Node* body = Wiring(state.current.diagram, state.registry).body(t.place.at);
-  return body == nullptr ? "" : body->type;
-}
-
-/// What acts in one of several like blocks acts in all of them: both tanks of a row have a hole for an outlet.
-std::vector<Addition> at_like_places(const SearchState& state, const std::vector<Addition>& alone) {
-  std::map<std::pair<std::string, std::string>, Addition> groups;  // effect, type
-  for (const auto& a : alone) {
-    const std::string type = varied_type(state, a.tried);
-    if (type.empty()) continue;
-    const auto [group, is_new] = groups.try_emplace({a.tried.effect->id, type}, a);
-    if (!is_new) group->second.also.push_back(a.tried);
-  }
-  std::vector<Addition> at_all;
-  for (auto& [key, group] : groups)
-    if (!group.also.empty()) at_all.push_back(std::move(group));
-  return at_all;
-}
-
-std::size_t place_of(const std::vector<Law>& laws, const std::string& name) {
-  const auto here = std::find_if(laws.begin(), laws.end(), [&](const Law& l) { return l.name == name; });
-  return here == laws.end() ? 0 : static_cast<std::size_t>(here - laws.begin());
-}
 
 /// Does what the place moves come back to it?
 bool is_in_a_loop(const Wiring& w, const std::string& signal) {
@@ -139,6 +98,14 @@ void Selection::count_in(const LeftSums& left) {
   measure();
 }
 
+/// What makes a law better that is then not the effect (a second mode that only shifts the phase) is not its gain.
+bool Selection::is_better(const Addition& rival, const FitOfRival& other) const {
+  if (!rival.fitted.ok()) return true;
+  const bool before = why_not_itself(rival.tried, rival.tried.law, rival.fitted).empty();
+  const bool now = why_not_itself(rival.tried, other.law, other.fitted).empty();
+  return before == now ? score_of(rival.fitted) < score_of(other.fitted) : now;
+}
+
 /// The better of the fits of each rival, and its law. The table of all models grows first: by that they are compared.
 void Selection::take_up(std::vector<Addition>& rivals, std::vector<FitsOfRival> answers) {
   for (const auto& list : answers)
@@ -147,9 +114,12 @@ void Selection::take_up(std::vector<Addition>& rivals, std::vector<FitsOfRival> 
   for (auto& list : answers)
     for (auto& a : list) {
       Addition& rival = rivals[a.rival];
+      if (const auto known = rival.by_law.find(a.law); known == rival.by_law.end() || !known->second.ok() ||
+                                                       (a.fitted.ok() && score_of(known->second) < score_of(a.fitted)))
+        rival.by_law[a.law] = without_prediction(a.fitted);
       if (!a.fitted.ok()) {
         if (!rival.fitted.ok()) rival.fitted.model.error = a.fitted.model.error;
-      } else if (!rival.fitted.ok() || score_of(rival.fitted) < score_of(a.fitted)) {
+      } else if (is_better(rival, a)) {
         rival.fitted = std::move(a.fitted);
         rival.tried.law = a.law;
       }
@@ -180,6 +150,10 @@ std::vector<Addition> Selection::everywhere(int step) {
 std::vector<Addition> Selection::list(int step) {
   state_.current = best_.model;
   auto rivals = everywhere(step);
+  // Names are counted: one that stands may act on a further axis too.
+  const auto names = names_of(best_.model);
+  if (static_cast<int>(names.size()) >= state_.options.max_steps)
+    std::erase_if(rivals, [&](const Addition& r) { return !names.contains(r.tried.effect); });
   for (auto& r : rivals) r.slowness = slowness(state_, r.tried);
   return rivals;
 }
@@ -263,18 +237,34 @@ void Selection::settle_best(std::vector<Addition>& rivals) {
   sort(rivals);
 }
 
+namespace {
+
+/// Where another effect leaves noise only, each further number takes about one of chi2 away and costs two in what ties
+/// are counted by, sqrt(2n) up or down: n more of them come within a tie where they take one and a half times that.
+bool has_too_many_numbers(const Addition& best, const Addition& rival, std::size_t law) {
+  constexpr std::size_t too_many = 15;
+  return best.tried.effect != rival.tried.effect &&
+         rival.tried.laws[law].free.size() > best.tried.laws[best.tried.law].free.size() + too_many;
+}
+
+}  // namespace
+
 /// Of the best names the other laws, from where the first one's model stands. Of each name those that are quick,
 /// and those of the block that explains most from there, are fitted with the user's numbers, which make up for what the
 /// first law lacks until then.
 void Selection::fit_richer_laws(std::vector<Addition>& rivals) {
   std::set<std::string> names;
   std::vector<std::pair<std::size_t, std::size_t>> jobs;  // rival, law
+  const bool only_noise = !rivals.empty() && rivals.front().fitted.ok() &&
+                          score().over_noise(rivals.front().fitted.left) < rules::near_noise;
   for (std::size_t i = 0; i < rivals.size(); ++i) {
     if (!rivals[i].fitted.ok()) continue;
     if (names.size() >= enriched_names && !names.contains(rivals[i].tried.effect->id)) break;
     if (!names.insert(rivals[i].tried.effect->id).second) continue;  // at its best place
     for (std::size_t l = 1; l < rivals[i].tried.laws.size(); ++l)
-      if (!rivals[i].tried.laws[l].apart) jobs.emplace_back(i, l);  // those stood among the first
+      if (!rivals[i].tried.laws[l].apart &&  // those stood among the first
+          !(only_noise && has_too_many_numbers(rivals.front(), rivals[i], l)))
+        jobs.emplace_back(i, l);
   }
   std::vector<FitsOfRival> answers(jobs.size());
   state_.side_by_side(jobs.size(), [&](std::size_t j, const FitContext& context) {
@@ -285,7 +275,7 @@ void Selection::fit_richer_laws(std::vector<Addition>& rivals) {
     const TableModel bare = without_term(setting_, context, rivals[i].fitted, last);
     if (!bare.ok()) return false;
     const double tried = ln_tried(rivals, *rivals[i].tried.effect);
-    answers[j] = {{i, law, with_term(setting_, context, bare, term_of(rivals[i], law), tried, Effort::full)}};
+    answers[j] = {{i, law, with_term(setting_, context, bare, richer_term_of(rivals[i], law), tried, Effort::full)}};
     return false;
   });
   for (const auto& list : answers)
@@ -315,9 +305,7 @@ void Selection::fit_richer_laws(std::vector<Addition>& rivals) {
 }
 
 bool Selection::is_itself(const Addition& rival) const {
-  return why_implausible(*rival.tried.effect, rival.tried.laws[rival.tried.law], rival.fitted.model,
-                         rival.tried.excitation)
-      .empty();
+  return why_not_itself(rival.tried, rival.tried.law, rival.fitted).empty();
 }
 
 /// Those that are quick first; the others where these leave more than noise.
@@ -346,6 +334,16 @@ void Selection::fit(std::vector<Addition>& rivals, int step) {
   settle_best(rivals);
 }
 
+/// What asks for less to be believed and explains as much (Effect::plainer), or the rival itself: a gain that is wrong
+/// needs no story, one that changes with use does.
+const Addition& Selection::plainest_like(const Addition& rival, const std::vector<Addition>& rivals) const {
+  for (const auto& r : rivals)
+    if (r.fitted.ok() && is_plainer(*r.tried.effect, *rival.tried.effect) && r.tried.outputs == rival.tried.outputs &&
+        tie_score_of(score(), r.fitted) > tie_score_of(score(), rival.fitted) - rules::tie && is_itself(r))
+      return r;
+  return rival;
+}
+
 bool Selection::add_one(int step) {
   auto rivals = list(step);
   if (rivals.empty()) return false;
@@ -362,117 +360,63 @@ bool Selection::add_one(int step) {
     if (!is_itself(r)) continue;
     // Where more than noise is left, who was not asked might have been the one.
     if (broken_off && score().over_noise(r.fitted.left) > rules::near_noise) break;
-    best_ = r.fitted;
+    best_ = plainest_like(r, round.rivals).fitted;
     return true;
   }
   best_ = before;
   return false;
 }
 
-/// A term that its model does not need: the rest, fitted from where it stands with the term, explains as much. Of a
-/// single term the rest is the user's own model from other numbers than it had been searched from.
-bool Selection::leave_out() {
-  for (const auto& term : terms_of(best_.model)) {
-    TableModel rest = without_term(setting_, state_.context, best_, term);
-    if (rest.ok()) rest = refitted(setting_, state_.context, rest, best_.numbers);
-    if (!rest.ok()) continue;
-    remember(rest);
-    measure();
-    if (rest.model.placed.empty() && score_of(rest) > score_of(nulls_.better(score())))
-      (rest.numbers == Numbers::let_go ? nulls_.let_go : nulls_.written) = rest;
-    if (score_of(rest) + rules::by_score < score_of(best_)) continue;
-    best_ = std::move(rest);
-    return true;
+/// Where more than noise is left and nothing is claimed alone: one of the best of the last round and one more effect on
+/// it. Each shows its worth only beside the other; who does not, leaves again (leave_out).
+bool Selection::add_two(int step) {
+  constexpr std::size_t beginnings = 3;
+  const bool room = static_cast<int>(names_of(best_.model).size()) + 2 <= state_.options.max_steps;
+  if (!room || state_.stopped() || rounds_.empty() || score().over_noise(best_.left) <= rules::near_noise) return false;
+  const TableModel before = best_;
+  std::vector<TableModel> first;
+  std::set<const Effect*> names;
+  for (const auto& r : rounds_.back().rivals)
+    if (first.size() < beginnings && r.fitted.ok() && is_itself(r) && names.insert(r.tried.effect).second)
+      first.push_back(r.fitted);
+  std::optional<Round> best;
+  for (const auto& one : first) {
+    best_ = one;
+    auto rivals = list(step);
+    std::erase_if(rivals, [](const Addition& r) { return r.slowness > 0; });  // there are three times as many
+    if (rivals.empty() || state_.stopped()) break;
+    fit_first_laws(rivals, step);
+    sort(rivals);
+    rivals.resize(std::min(rivals.size(), at_once));
+    fit_with_numbers(rivals, nullptr, {});
+    std::erase_if(rivals, [&](const Addition& r) { return r.fitted.ok() && !is_itself(r); });
+    if (rivals.empty() || !rivals.front().fitted.ok()) continue;
+    if (best && score_of(best->rivals.front().fitted) >= score_of(rivals.front().fitted)) continue;
+    best = Round{one, std::move(rivals)};
   }
-  return false;
-}
-
-void Selection::fit_on(const TableModel& rest, std::vector<Addition>& rivals) {
-  std::vector<FitsOfRival> answers(rivals.size());
-  state_.side_by_side(rivals.size(), [&](std::size_t k, const FitContext& context) {
-    const std::size_t law = rivals[k].tried.law;
-    const TableModel f = with_term(setting_, context, rest, term_of(rivals[k], law),
-                                   ln_tried(rivals, *rivals[k].tried.effect), Effort::full);
-    if (f.ok()) answers[k] = {{k, law, refitted(setting_, context, f, best_.numbers)}};
+  best_ = before;
+  if (!best || state_.stopped() || score_of(best->rivals.front().fitted) <= score_of(before) + rules::by_score)
     return false;
-  });
-  take_up(rivals, std::move(answers));
-  for (auto& r : rivals) r.tried.candidate = r.fitted.model;
+  best_ = best->rivals.front().fitted;
+  for (auto& r : best->rivals) r.tried.candidate = r.fitted.model;
+  rounds_.push_back(std::move(*best));
+  return true;
 }
 
-/// Of what list_candidates() has just found hidden, what looks like this effect.
-std::vector<Addition> Selection::take_hidden(const Effect& effect) {
-  std::vector<Addition> rivals;
-  for (auto& t : state_.hidden) {
-    if (!look_alike(*t.effect, effect)) continue;
-    t.laws = t.effect->laws(t.excitation);
-    t.hidden = true;
-    Addition rival;
-    rival.tried = std::move(t);
-    if (!rival.tried.laws.empty()) rivals.push_back(std::move(rival));
-  }
-  state_.hidden.clear();
-  return rivals;
-}
-
-std::vector<Addition> Selection::hidden_in_place_of(const Effect& effect) {
-  const TableModel& null = nulls_.better(score());
-  const CandidateModel was = std::exchange(state_.current, null.model);
-  list_candidates(state_, 2);
-  state_.current = was;
-  auto rivals = take_hidden(effect);
-  fit_on(null, rivals);
-  return rivals;
-}
-
-std::vector<Addition> Selection::in_place_of(const std::vector<std::size_t>& term) {
-  std::vector<Addition> rivals;
-  const PlacedEffect& leaving = best_.model.placed[term.front()];
-  const TableModel rest = without_term(setting_, state_.context, best_, term);
-  if (!rest.ok()) return rivals;
-  const CandidateModel was = std::exchange(state_.current, rest.model);
-  for (auto& r : everywhere(2)) {
-    const bool same = r.tried.effect == leaving.effect;
-    const bool itself = same && r.tried.place.where() == leaving.place.where() && r.also.size() + 1 == term.size();
-    if (same ? !itself : !look_alike(*r.tried.effect, *leaving.effect)) continue;
-    if (itself) r.tried.law = place_of(r.tried.laws, leaving.law.name);
-    rivals.insert(itself ? rivals.begin() : rivals.end(), std::move(r));
-  }
-  state_.current = was;
-  for (auto& hidden : take_hidden(*leaving.effect)) rivals.push_back(std::move(hidden));
-  fit_on(rest, rivals);
-  std::stable_sort(rivals.begin(), rivals.end(), [&](const Addition& a, const Addition& b) {
-    const auto rank = [&](const Addition& r) { return std::pair(r.tried.effect != leaving.effect, !r.fitted.ok()); };
-    if (rank(a) != rank(b)) return rank(a) < rank(b);
-    return a.fitted.ok() && score_of(a.fitted) > score_of(b.fitted);
-  });
-  return rivals;
-}
-
-/// A look-alike that explains more in the place of a term.
-bool Selection::exchange() {
-  const auto terms = terms_of(best_.model);
-  for (std::size_t i = 0; i + 1 < terms.size(); ++i)
-    for (const auto& r : in_place_of(terms[i]))
-      if (r.fitted.ok() && !r.tried.hidden && r.tried.effect != best_.model.placed[terms[i].front()].effect &&
-          is_itself(r) && score_of(r.fitted) > score_of(best_) + rules::exchange) {
-        best_ = r.fitted;
-        return true;
-      }
-  return false;
-}
-
-void Selection::run() {
+void Selection::run(const std::function<bool(const TableModel&)>& is_over) {
   nulls_ = fit_nulls(setting_);
   remember(nulls_.written);
   remember(nulls_.let_go);
   measure();
   best_ = nulls_.better(score());
-  for (int step = 1; step <= state_.options.max_steps && !state_.stopped(); ++step) {
-    if (!add_one(step)) break;
+  const int axes = static_cast<int>(state_.base_model->outputs().size());
+  const int most = 3 * state_.options.max_steps + axes;  // a name or two may leave for each that stays
+  for (int step = 1; step <= most && !state_.stopped(); ++step) {
+    if (!add_one(step) && !add_two(step + 1) && !in_two()) break;
     while (!state_.stopped() && leave_out()) continue;
     if (best_.model.placed.empty()) break;
-    if (!state_.stopped()) exchange();
+    for (int turn = 0; turn < state_.options.max_steps && !state_.stopped() && exchange();) ++turn;
+    if (!state_.stopped() && is_over(best_)) break;
   }
 }
 

@@ -1,14 +1,15 @@
 // Decides how the loop of a selection goes: the null, all first effects, further ones, what can be left out or
-// exchanged. Internal to discover.
+// exchanged (exchange.cpp). Internal to discover.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "discover/selection/addition.h"
 #include "discover/selection/null_model.h"
-#include "discover/selection/table_model.h"
 
 namespace hysteron {
 
@@ -17,14 +18,6 @@ constexpr double by_score = 10;  ///< a model claims what it adds where its scor
 /// rms over the noise below which nothing is left that another effect could take away.
 constexpr double near_noise = 1.1;
 }  // namespace rules
-
-/// A rival: one effect more than the model it stands on.
-struct Addition {
-  TriedEffect tried;              ///< effect, place, laws; `candidate` is that of `fitted`
-  std::vector<TriedEffect> also;  ///< the same effect at like places, where it enters all of them at once
-  int slowness = 0;               ///< the quick ones are asked first
-  TableModel fitted;              ///< with its best law
-};
 
 /// What was asked on top of one model.
 struct Round {
@@ -38,8 +31,9 @@ std::vector<std::vector<std::size_t>> terms_of(const CandidateModel& model);
 class Selection {
  public:
   Selection(SearchState& state, std::map<std::string, double> numbers);
-  /// Finds the model. Throws Stopped where it is broken off: best() is what was found until then.
-  void run();
+  /// Finds the model. Throws Stopped where it is broken off: best() is what was found until then. `is_over` is asked of
+  /// the best model after each term; true: what would be found from there on is of no use.
+  void run(const std::function<bool(const TableModel&)>& is_over);
 
   const Nulls& nulls() const { return nulls_; }
   const TableModel& best() const { return best_; }
@@ -58,6 +52,7 @@ class Selection {
 
  private:
   bool add_one(int step);
+  bool add_two(int step);
   void fit(std::vector<Addition>& rivals, int step);
   void fit_first_laws(std::vector<Addition>& rivals, int step);
   void fit_richer_laws(std::vector<Addition>& rivals);
@@ -65,9 +60,13 @@ class Selection {
                         const std::vector<TableModel>& others_at_first);
   void settle_best(std::vector<Addition>& rivals);
   void sort(std::vector<Addition>& rivals) const;
+  TableModel others_as_they_are(const std::vector<std::size_t>& term) const;
   std::vector<Addition> take_hidden(const Effect& effect);
   void fit_on(const TableModel& rest, std::vector<Addition>& rivals);
   bool leave_out();
+  std::vector<Addition> by_laws(const TableModel& on, const std::function<bool(const Addition&, const Law&)>& takes);
+  std::vector<Addition> by_other_laws(const std::vector<std::size_t>& term);
+  bool in_two();
   bool exchange();
   struct FitOfRival {
     std::size_t rival = 0, law = 0;
@@ -75,11 +74,13 @@ class Selection {
   };
   using FitsOfRival = std::vector<FitOfRival>;
   void take_up(std::vector<Addition>& rivals, std::vector<FitsOfRival> answers);
+  bool is_better(const Addition& rival, const FitOfRival& other) const;
   void remember(const TableModel& fitted);
   void measure();
   std::vector<Addition> everywhere(int step);
   std::vector<Addition> list(int step);
   bool is_itself(const Addition& rival) const;
+  const Addition& plainest_like(const Addition& rival, const std::vector<Addition>& rivals) const;
 
   SearchState& state_;
   FitSetting setting_;

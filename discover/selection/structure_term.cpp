@@ -1,5 +1,7 @@
 #include "discover/selection/structure_term.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -96,6 +98,23 @@ class OnModel {
   std::map<int, ResidualParts> parts_;
 };
 
+/// A line or a ripple where a law that stands looks for one is that law's own.
+bool is_of_a_standing_law(const SearchState& state, const CandidateModel& model, const Structure& s) {
+  const auto looks_for_it = [&](const LawParameter& p) {
+    if (s.kind == "line_in_level") return p.period_of_wire && p.lower <= s.period && s.period <= p.upper;
+    return s.kind == "line_in_time" &&
+           std::any_of(p.line_bands.begin(), p.line_bands.end(), [&](const std::pair<double, double>& band) {
+             return band.first * s.period <= 1 && 1 <= band.second * s.period;
+           });
+  };
+  return std::any_of(model.placed.begin(), model.placed.end(), [&](const PlacedEffect& standing) {
+    const auto moved = measured_moved(state, model, standing.place.moves_from());
+    return std::any_of(moved.begin(), moved.end(),
+                       [&](int o) { return state.base_model->outputs()[static_cast<std::size_t>(o)] == s.output; }) &&
+           std::any_of(standing.law.free.begin(), standing.law.free.end(), looks_for_it);
+  });
+}
+
 /// A law is simpler than what it stands for, and may leave a part of that; a structure stands for nothing but what it
 /// describes.
 bool describes(const BlockScore& score, const WithStructure& structure, const TableModel& without) {
@@ -106,7 +125,7 @@ bool describes(const BlockScore& score, const WithStructure& structure, const Ta
 
 }  // namespace
 
-std::optional<StructureAhead> structure_ahead(const SearchState& state, Selection& selection) {
+std::optional<CompetingStructure> structure_beside_effects(SearchState& state, Selection& selection) {
   struct Searched {
     const TableModel* on;
     StructureSearch search;
@@ -115,9 +134,11 @@ std::optional<StructureAhead> structure_ahead(const SearchState& state, Selectio
   std::vector<Searched> all;
   for (const TableModel* base : {&selection.nulls().written, &selection.nulls().let_go, &selection.best()}) {
     if (!base->ok()) continue;
+    state.settle(state.current.prediction, base->model);  // a line of an effect would hide one beside it
     OnModel on(state, selection.score(), *base);
     all.push_back({base, on.search(), on.rivals()});
   }
+  state.settle(state.current);
   for (const auto& s : all)
     for (const auto& r : s.rivals) selection.count_in(r.left);
   const auto score_by = [&](const BlockScore& score, const Searched& s, const WithStructure& r) {
@@ -139,16 +160,25 @@ std::optional<StructureAhead> structure_ahead(const SearchState& state, Selectio
         best = &r;
       }
     }
-  if (best == nullptr || alone <= selection.score_of(selection.nulls().better(score)) + rules::by_score ||
-      beside_effects >= alone + rules::by_score)
-    return std::nullopt;
-  if (!describes(score, *best, *where->on)) return std::nullopt;
+  if (best == nullptr) return std::nullopt;
   // Where both leave more than noise, what they leave lasts, and as few witnesses as that has tell them apart.
   const BlockScore of_both(*state.evidence, {best->left, selection.best().left});
-  StructureAhead ahead{where->search, score_by(of_both, *where, *best) - score_of(of_both, selection.best())};
-  ahead.search.best = static_cast<int>(best->structure);
-  if (ahead.by <= rules::tie) return std::nullopt;
-  return ahead;
+  CompetingStructure of_all{{where->search, Where::all_recordings, {}},
+                            score_by(of_both, *where, *best) - score_of(of_both, selection.best())};
+  of_all.judged.search.best = static_cast<int>(best->structure);
+  auto& why_not = of_all.judged.requirement.why_not;
+  if (alone <= selection.score_of(selection.nulls().better(score)) + rules::by_score)
+    why_not = "no more than chance";
+  else if (of_all.by <= rules::tie)
+    why_not = fmt::format("its score is {:.0f} {} that of the effects that were found", std::abs(of_all.by),
+                          of_all.by < 0 ? "below" : "above");
+  else if (beside_effects >= alone + rules::by_score)
+    why_not = "the effects would be claimed beside it";
+  else if (!describes(score, *best, *where->on))
+    why_not = "it leaves more than a tenth of what it explains";
+  else if (is_of_a_standing_law(state, selection.best().model, *of_all.judged.search.winner()))
+    why_not = "an effect that was found looks for it";
+  return of_all;
 }
 
 }  // namespace hysteron

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "discover/models/fit_candidate_model.h"
-#include "discover/search/nominal_parameters.h"
+#include "discover/search/held_numbers.h"
 
 namespace hysteron {
 namespace {
@@ -171,8 +171,8 @@ TableModel without_term(const FitSetting& setting, const FitContext& context, co
   return measured(setting, std::move(rest), from.numbers, std::move(weights), from.tried);
 }
 
-double sigma_by_witnesses(const FitResult& fit, const ParameterEstimate& estimate) {
-  return estimate.sigma ? *estimate.sigma / std::sqrt(fit.s2 > 0 ? fit.s2 : 1) : 0;
+double sigma_by_witnesses(const ParameterEstimate& estimate) {
+  return estimate.sigma ? *estimate.sigma / std::sqrt(estimate.s2) : 0;
 }
 
 namespace {
@@ -190,7 +190,7 @@ std::vector<LetGo> all_let_go(const FitResult& fit, const std::map<std::string, 
   for (const auto& e : fit.estimates) {
     const auto n = numbers.find(e.path);
     if (n == numbers.end()) continue;
-    LetGo one{e.path, e.used - n->second, sigma_by_witnesses(fit, e), -1, e.at_lower || e.at_upper};
+    LetGo one{e.path, e.used - n->second, sigma_by_witnesses(e), -1, e.at_lower || e.at_upper};
     for (std::size_t k = 0; k < fit.correlated.size(); ++k)
       if (&fit.estimates[static_cast<std::size_t>(fit.correlated[k])] == &e) one.place = static_cast<int>(k);
     if (one.at_bound || (one.place >= 0 && one.sigma > 0)) all.push_back(one);

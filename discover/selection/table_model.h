@@ -29,6 +29,14 @@ struct TableModel {
   bool ok() const { return model.ok; }
 };
 
+/// An effect by one of its laws at one of its places.
+struct Choice {
+  const Effect* effect = nullptr;
+  Law law;
+  Place place;
+  Excitation at;
+};
+
 /// What all fits of one selection share.
 struct FitSetting {
   FitSetting(const SearchState& state, std::map<std::string, double> numbers);
@@ -84,7 +92,7 @@ TableModel without_term(const FitSetting& setting, const FitContext& context, co
 
 /// Of a number that was fitted by weights that count witnesses: one standard deviation [SI], not scaled by what the
 /// rows leave, for that scale takes their correlation for smallness.
-double sigma_by_witnesses(const FitResult& fit, const ParameterEstimate& estimate);
+double sigma_by_witnesses(const ParameterEstimate& estimate);
 
 /// Takes those numbers back to what is written that bring less than 6 + ln n_eff of chi2 alone, the least first, and
 /// fits again with the others. `kept`: the others, as written.

@@ -19,8 +19,8 @@ std::optional<Structure> line_in_time(const ResidualParts& parts);
 /// shortest recording to the longest, since each tells frequencies apart by one over its duration.
 std::vector<double> strongest_lines(const ResidualParts& parts, const std::vector<std::pair<double, double>>& bands,
                                     std::size_t most);
-/// Periods [SI] of the strongest ripples of the residual over a level, from `shortest` to `longest`, strongest first, at
-/// most `most`: found on train recordings.
+/// Periods [SI] of the strongest ripples of the residual over a level, from `shortest` to `longest`, strongest first,
+/// at most `most`: found on train recordings.
 std::vector<double> strongest_ripples(const ResidualParts& parts, std::size_t level, double shortest, double longest,
                                       std::size_t most);
 /// Fringes, gear teeth: a ripple over a level, one shape for all recordings, 3 to 130 periods over the range.

@@ -248,6 +248,7 @@ class Analysis {
       auto& e = result_.estimates[static_cast<std::size_t>(s.estimate)];
       const double sigma = std::sqrt(covariance(i, i)), half = quantile * sigma;
       e.sigma = s.log_scale ? sigma * s.value : sigma;
+      e.s2 = coloured_ == nullptr && result_.s2 > 0 ? result_.s2 : 1;
       e.low95 = std::max(e.lower, s.log_scale ? s.value * std::exp(-half) : s.value - half);
       e.high95 = std::min(e.upper, s.log_scale ? s.value * std::exp(half) : s.value + half);
       result_.correlated.push_back(s.estimate);

@@ -86,6 +86,7 @@ struct ParameterEstimate {
   std::optional<std::pair<double, double>> prior{};  ///< as given
   std::optional<double> value{};                     ///< the estimate; absent if not determined
   std::optional<double> sigma{};                     ///< standard deviation (of ln value times value for log scale)
+  double s2 = 1;                                     ///< its square was scaled by it: FitResult::s2 of its own fit
   /// 95 % interval, inside the bounds: of the linearization, or of the profile where the model bends over it.
   std::optional<double> low95{}, high95{};
 };

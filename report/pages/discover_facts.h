@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "discover/search/check.h"
+#include "discover/selection/check.h"
 #include "report/pages/facts.h"
 
 namespace hysteron {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "discover/search/discover.h"
+#include "discover/search/discovery.h"
 #include "io/results/result.h"
 #include "report/pages/curves.h"
 #include "report/pages/inspection_page.h"

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "discover/search/check.h"
+#include "discover/selection/check.h"
 #include "io/results/result.h"
 #include "report/pages/inspection_page.h"
 

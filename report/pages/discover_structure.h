@@ -2,7 +2,7 @@
 // the residual. Does not find it (discover/structure/structure.h).
 #pragma once
 
-#include "discover/search/discover.h"
+#include "discover/search/discovery.h"
 #include "io/results/result.h"
 #include "report/pages/curves.h"
 

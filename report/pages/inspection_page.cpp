@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "discover/search/check.h"
+#include "discover/selection/check.h"
 #include "engine/diagram/time_text.h"
 #include "report/pages/numbers.h"
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "discover/search/discover.h"
+#include "discover/search/discovery.h"
 
 namespace hysteron {
 

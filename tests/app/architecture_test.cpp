@@ -186,7 +186,6 @@ const std::set<std::string> long_functions = {
     "draw/symbol.cpp",                 // a table: which type has which picture
     "blocks/other_names.cpp",          // a table: names in other programs
     "engine/block/rows.h",             // one loop over rows, whose numbers stay in registers
-    "discover/search/judge_step.cpp",  // one verdict from all of its grounds
 };
 
 /// Lines of the longest function of a namespace or a class, from its name to its end: clang-format closes it with a

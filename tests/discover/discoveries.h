@@ -10,15 +10,15 @@
 
 #include "blocks/register_all.h"
 #include "discover/effects/all.h"
-#include "discover/search/discover.h"
+#include "discover/selection/discover.h"
 
 namespace hysteron::testing {
 
 class Discoveries : public ::testing::Test {
  protected:
   /// One step; `only`: these effects, all if empty.
-  Discovery diagnosed(const Diagram& d, const DataSet& data, std::vector<std::string> only = {}) {
-    DiscoverOptions options;
+  Discovery diagnosed(const Diagram& d, const DataSet& data, std::vector<std::string> only = {},
+                      DiscoverOptions options = {}) {
     options.only = std::move(only);
     return diagnose(d, data, registry, effects, options);
   }
@@ -27,6 +27,12 @@ class Discoveries : public ::testing::Test {
                        DiscoverOptions options = {}) {
     options.only = std::move(only);
     return discover(d, data, registry, effects, options);
+  }
+  /// What the diagram does not leave free is exact.
+  static DiscoverOptions exact() {
+    DiscoverOptions options;
+    options.numbers_are_exact = true;
+    return options;
   }
   /// Everything that was tried and refused, for a failure.
   static std::string tried(const Discovery& d) {

@@ -50,8 +50,8 @@ class DriveGain : public Discoveries {
 };
 
 TEST_F(DriveGain, WhatAllOutputsShowAlikeIsTheDrives) {
-  const Discovery d =
-      discovered(two_sensors(), measured(1.02, 1.02), {"calibration", "drive_gain", "hysteresis", "asymmetry"});
+  const Discovery d = discovered(two_sensors(), measured(1.02, 1.02),
+                                 {"calibration", "drive_gain", "hysteresis", "asymmetry"}, exact());
   ASSERT_EQ(d.steps.size(), 1u) << tried(d);
   EXPECT_EQ(d.steps[0].winner.effect, "drive_gain") << tried(d);
   // 1600 rows of 0.7 rms with noise of 2e-4 on y, and as many of 1.4 on s: to 3e-6; slow noise doubles that.
@@ -61,7 +61,8 @@ TEST_F(DriveGain, WhatAllOutputsShowAlikeIsTheDrives) {
 }
 
 TEST_F(DriveGain, WhatOneOfThemShowsIsItsSensors) {
-  const Discovery d = discovered(two_sensors(), measured(1.02, 1), {"calibration", "drive_gain", "hysteresis"});
+  const Discovery d =
+      discovered(two_sensors(), measured(1.02, 1), {"calibration", "drive_gain", "hysteresis"}, exact());
   ASSERT_EQ(d.steps.size(), 1u) << tried(d);
   EXPECT_EQ(d.steps[0].winner.effect, "calibration") << tried(d);
   EXPECT_TRUE(d.steps[0].winner.place == "stage") << d.steps[0].winner.place;
@@ -76,7 +77,7 @@ TEST_F(DriveGain, OfOneOutputItIsNotAsked) {
       EXPECT_FALSE(v.can());
       EXPECT_NE(v.reason.find("drive gain and sensor gain cannot be separated"), std::string::npos) << v.reason;
     }
-  const Discovery d = discovered(plain_gain(), one, {"calibration", "drive_gain"});
+  const Discovery d = discovered(plain_gain(), one, {"calibration", "drive_gain"}, exact());
   ASSERT_EQ(d.steps.size(), 1u);
   EXPECT_EQ(d.steps[0].winner.effect, "calibration");
 }

@@ -160,8 +160,9 @@ TEST_F(HysteresisLaws, ASpringThatYieldsUnevenlyIsHysteresisAndNoCurveBesides) {
     for (std::size_t k = 0; k < y.size(); ++k) y[k] += x[k];
     list.push_back(recording(std::to_string(seed++) + ".csv", role, t, u, std::move(y)));
   }
-  const auto d = discovered(mass_on_spring(), data_set(std::move(list), sensor_noise),
-                            {"hysteresis", "friction", "stiffening", "asymmetry", "sensor_nonlinearity", "backlash"});
+  const auto d =
+      discovered(mass_on_spring(), data_set(std::move(list), sensor_noise),
+                 {"hysteresis", "friction", "stiffening", "asymmetry", "sensor_nonlinearity", "backlash"}, exact());
   ASSERT_EQ(d.steps.size(), 1U) << tried(d);
   EXPECT_EQ(winner(d), "hysteresis") << tried(d);
   EXPECT_EQ(d.steps.front().winner.law, "6 uneven plays in the spring") << tried(d);
@@ -229,13 +230,11 @@ TEST_F(HysteresisLaws, ASpringWhoseLoopsHardenWithTheTravelIsHysteresis) {
 
 TEST_F(HysteresisLaws, NoLawOfManyMoreNumbersIsTriedWhereAnotherEffectLeavesNoiseOnly) {
   const auto tries = [&](DataSet data) {
-    DiscoverOptions options;
-    options.only = {"asymmetry", "hysteresis"};
-    std::vector<std::string> laws;
-    options.progress = [&](const std::string& what, double) { laws.push_back(what); };
-    discover(plain_gain(), data, registry, effects, options);
-    return std::count_if(laws.begin(), laws.end(),
-                         [](const std::string& what) { return what.starts_with("hysteresis: relays"); });
+    const Discovery d = diagnosed(plain_gain(), data, {"asymmetry", "hysteresis"});
+    long relays = 0;
+    for (const auto& c : d.candidates)
+      for (const auto& law : c.laws_tried) relays += law.law.starts_with("relays");
+    return relays;
   };
   EXPECT_GT(tries(recorded(0.06, 1.5)), 0) << "a curve alone leaves more";
   auto curved = recorded(0, 0);

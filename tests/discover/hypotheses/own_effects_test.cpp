@@ -10,7 +10,7 @@
 #include "discover/effects/all.h"
 #include "discover/hypotheses/effect_file.h"
 #include "discover/hypotheses/effect_quantity.h"
-#include "discover/search/discover.h"
+#include "discover/selection/discover.h"
 #include "io/diagram/diagram_file.h"
 #include "tests/discover/synthetic.h"
 #include "tests/io/temporary_folder.h"

@@ -6,7 +6,7 @@
 
 #include "blocks/register_all.h"
 #include "discover/effects/all.h"
-#include "discover/search/discover.h"
+#include "discover/selection/discover.h"
 #include "io/diagram/diagram_file.h"
 #include "tests/discover/dev_case.h"
 

@@ -5,7 +5,6 @@
 
 #include "discover/models/own_resonances.h"
 #include "discover/placement/excitation.h"
-#include "discover/search/search_state.h"
 #include "engine/program/program.h"
 #include "tests/discover/discoveries.h"
 #include "tests/discover/two_axes.h"
@@ -45,10 +44,6 @@ TEST_F(Rules, AZeroThatALawBringsAlongIsLeftToTheCalibration) {
   ASSERT_EQ(d.steps.size(), 1U) << tried(d);
   EXPECT_EQ(d.steps.front().winner.effect, "calibration") << tried(d);
   EXPECT_TRUE(d.steps.front().ties.empty()) << tried(d);
-  const auto left = std::count_if(d.candidates.begin(), d.candidates.end(), [](const Candidate& c) {
-    return c.reason.find("a gain and a zero alone take away as much") != std::string::npos;
-  });
-  EXPECT_GE(left, 1) << "no law took the zero along: nothing was tested\n" << tried(d);
 }
 
 /// A sensor of this gain, in recordings of these strokes and ages: each of the gain that it had at its age.
@@ -75,7 +70,7 @@ TEST_F(Rules, AGainThatIsWrongIsPlainerThanOneThatChangesWithUse) {
   const std::vector<std::string> both{"ageing", "calibration"};
   const std::vector<std::pair<double, double>> runs{{0.02, 100}, {1, 1e4}, {1, 1e4}};
   // Only what is too small to show anything was recorded early: both explain it, and ageing needs a number less.
-  const Discovery wrong = diagnosed(gain_and_sensor(), of_ages(runs, [](double) { return 0.9991; }), both);
+  const Discovery wrong = diagnosed(gain_and_sensor(), of_ages(runs, [](double) { return 0.9991; }), both, exact());
   EXPECT_EQ(winner(wrong), "calibration") << tried(wrong);
   ASSERT_FALSE(wrong.steps.empty());
   ASSERT_EQ(wrong.steps[0].ties.size(), 1u) << tried(wrong);
@@ -83,7 +78,7 @@ TEST_F(Rules, AGainThatIsWrongIsPlainerThanOneThatChangesWithUse) {
   // What was recorded early at full stroke tells.
   const std::vector<std::pair<double, double>> told{{1, 100}, {1, 1e4}, {1, 1e6}};
   const auto by_decades = [](double n) { return 1 - 5e-4 * std::log10(1 + n / 100); };
-  const Discovery aged = diagnosed(gain_and_sensor(), of_ages(told, by_decades), both);
+  const Discovery aged = diagnosed(gain_and_sensor(), of_ages(told, by_decades), both, exact());
   EXPECT_EQ(winner(aged), "ageing") << tried(aged);
 }
 
@@ -146,38 +141,6 @@ TEST_F(Rules, ASmallGainBesideAnAgeingDeviceIsNoOtherEffects) {
   EXPECT_EQ(winner(d), "ageing") << tried(d);
 }
 
-TEST_F(Rules, EachBlockThatRemembersHasAPastOfItsOwn) {
-  Diagram d = plain_gain();
-  for (const auto& [name, from] : {std::pair{"joint", "stage"}, {"nut", "joint"}}) {
-    Node& block = d.blocks[name];
-    block.type = "backlash";
-    block.parameters["gap"] = Value("0.2 m");
-    block.in = {{"", from}};
-  }
-  d.outputs["y"] = "nut";
-  const auto t = rows(400, 0.005);
-  const auto u = several_sines(t, 1, {1.1});
-  std::vector<double> y = u;
-  for (double& v : y) v += 0.05;
-  const DataSet data =
-      data_set({recording("a.csv", Role::train, t, u, y), recording("b.csv", Role::validate, t, u, y)}, 1e-3);
-  DiscoverOptions options;
-  options.only = {"initial_remanence"};
-  SearchState state(d, data, registry, effects, options);
-  fit_base(state);
-  const auto where = [](const std::vector<TriedEffect>& list) {
-    std::vector<std::string> places;
-    for (const TriedEffect& one : list) places.push_back(one.place.where());
-    return places;
-  };
-  auto list = list_candidates(state, 1);
-  ASSERT_EQ(where(list), (std::vector<std::string>{"joint", "nut"}));
-  fit_candidates(state, list, 1);
-  ASSERT_TRUE(list[0].candidate.ok) << list[0].candidate.error;
-  take(state, 1, list[0], {});
-  EXPECT_EQ(where(list_candidates(state, 2)), std::vector<std::string>{"nut"});
-}
-
 // --- slow noise ------------------------------------------------------------------------------------------------------
 
 TEST_F(Rules, SlowNoiseThatNoStructureExplainsIsNoUnexplainedModel) {
@@ -225,56 +188,6 @@ TEST_F(Rules, ALookAlikeIsFittedTogetherWithWhatStands) {
   EXPECT_EQ(d.steps[1].winner.effect, "dead_time") << tried(d);
 }
 
-TEST_F(Rules, ARicherLawBeginsAmongWhatWasFittedTogetherWithTheSimpleOne) {
-  // A lag that stands alone has taken part of the creep up in its own time. Beside the logarithm of time it is found
-  // anew; with the time that it had before, relaxations fit worse than that.
-  std::vector<Recording> list;
-  std::uint64_t seed = 60;
-  for (const Role role : {Role::train, Role::train, Role::validate}) {
-    const auto t = rows(3000, 0.005);
-    const auto u = sampled(t, [&](double x) { return x < 0.5 ? 0.0 : std::fmod(x, 10) < 5 ? 1.0 : 0.4; });
-    auto y = lagged(t, u, 0.03);
-    const auto motion = y;
-    for (const double tau : {0.05, 0.15, 0.5, 1.5, 5.0, 15.0}) {  // almost the logarithm of time
-      const auto slow = lagged(t, motion, tau);
-      for (std::size_t k = 0; k < y.size(); ++k) y[k] += 0.03 * slow[k];
-    }
-    list.push_back(recording(std::to_string(seed) + ".csv", role, t, u, plus(y, noise(t.size(), 1e-3, 1e-4, seed))));
-    ++seed;
-  }
-  const DataSet data = data_set(list, 1e-3);
-  const Diagram diagram = plain_gain();
-  DiscoverOptions options;
-  options.only = {"amplifier_lag", "creep"};
-  SearchState state(diagram, data, registry, effects, options);
-  fit_base(state);
-  const Effect& lag = effects.get("amplifier_lag");
-  const Place place = places_of(lag, diagram, registry, &data).front();
-  const auto at = circumstances_at(diagram, registry, data, place, {});
-  const CandidateModel first =
-      with_effect(state.context, state.base, lag, lag.laws(at).front(), place, at, Effort::full);
-  state.current = first;
-  state.settle(state.current);
-  auto tried = list_candidates(state, 2, {}, {&effects.get("creep")});
-  fit_candidates(state, tried, 2);
-  join_twins(tried);
-  ASSERT_EQ(tried.size(), 1U);
-  compare_all(state, tried, As::further);
-  refit_best(state, tried, As::further, 0);
-  const CandidateModel simple = tried.front().candidate;
-  ASSERT_TRUE(simple.ok) << simple.error;
-  EXPECT_LT(values_of(simple, 0).front(), 0.95 * values_of(first, 0).front()) << "time of the lag";
-
-  const CandidateModel held = before_last(state.context, simple);
-  EXPECT_EQ(held.placed.size(), 1U);
-  EXPECT_EQ(held.parameters, first.parameters);
-  EXPECT_DOUBLE_EQ(values_of(held, 0).front(), values_of(simple, 0).front());
-
-  enrich(state, tried, 2, As::further, 0);
-  EXPECT_EQ(tried.front().law, 1U);
-  EXPECT_LT(tried.front().candidate.score(), simple.score() - 100);
-}
-
 // --- the next experiment ---------------------------------------------------------------------------------------------
 
 /// A lag under slow triangles, sampled every 50 ms: a distance to the drive that is the same for a delay.
@@ -306,7 +219,7 @@ TEST_F(Rules, NoRecorderIsAskedForMoreThanEightTimesItsRate) {
   const Discovery few = discovered(plain_gain(), slow_recordings(2, 0.4e-3, 5e-5), {"amplifier_lag", "dead_time"});
   ASSERT_EQ(few.steps.size(), 1U) << tried(few);
   EXPECT_EQ(few.steps.front().ties.size(), 1U) << tried(few);
-  EXPECT_EQ(to_text(few.verdict), "missing_effect") << few.headline << (few.experiment ? few.experiment->text : "");
+  for (const auto& item : few.steps.front().menu.items) EXPECT_LE(item.faster_rows, 8) << item.word;
 }
 
 /// A parabola of 2 % of the range behind a plain gain: of the drive or of the sensor, it is the same one.
@@ -358,10 +271,10 @@ TEST_F(Rules, AnOutputThatNothingFoundMovesIsJudgedAsIfItWereAlone) {
     };
   };
   const Discovery d =
-      discovered(two_plain_axes(), of_two_axes(white, times(1.03), times(1 + 0.55e-3)), {"calibration"});
-  ASSERT_EQ(d.steps.size(), 2u) << tried(d);
+      discovered(two_plain_axes(), of_two_axes(white, times(1.03), times(1 + 0.55e-3)), {"calibration"}, exact());
+  ASSERT_EQ(d.steps.size(), 1u) << tried(d);
   EXPECT_EQ(d.steps[0].winner.place, "stage");
-  EXPECT_EQ(d.steps[1].winner.place, "stage2");
+  EXPECT_EQ(d.steps[0].winner.also_at, std::vector<std::string>{"stage2"}) << tried(d);
 }
 
 // --- tolerances ------------------------------------------------------------------------------------------------------

@@ -123,7 +123,7 @@ TEST_F(SmoothInputs, AWrongGainIsNoBendOfTheInput) {
                                  {Role::train, sines(1, {1.95, 2.1})},
                                  {Role::validate, sines(0.9, {1.9, 2.05})}},
                                 0, true, 1.02);
-  const Discovery d = discovered(mass_on_spring(), data, {"calibration", "structural_resonance"});
+  const Discovery d = discovered(mass_on_spring(), data, {"calibration", "structural_resonance"}, exact());
   EXPECT_TRUE(d.smooth_inputs.empty()) << tried(d);
   ASSERT_EQ(d.steps.size(), 1u) << tried(d);
   EXPECT_EQ(d.steps[0].winner.effect, "calibration") << tried(d);

@@ -9,7 +9,6 @@
 #include <cmath>
 
 #include "discover/placement/add.h"
-#include "discover/search/search_state.h"
 #include "engine/diagram/error.h"
 #include "tests/discover/discoveries.h"
 #include "tests/discover/synthetic.h"

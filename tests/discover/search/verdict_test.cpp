@@ -6,8 +6,8 @@
 #include "blocks/register_all.h"
 #include "discover/effects/all.h"
 #include "discover/placement/rows.h"
-#include "discover/search/discover.h"
 #include "discover/search/investigation.h"
+#include "discover/selection/discover.h"
 #include "io/diagram/diagram_file.h"
 #include "tests/discover/synthetic.h"
 
@@ -19,7 +19,11 @@ using std::numbers::pi;
 
 class Verdicts : public ::testing::Test {
  protected:
-  Discovery found(const Diagram& d, const DataSet& data) { return discover(d, data, registry, effects); }
+  Discovery found(const Diagram& d, const DataSet& data, bool exact = false) {
+    DiscoverOptions options;
+    options.numbers_are_exact = exact;
+    return discover(d, data, registry, effects, options);
+  }
   static std::vector<std::string> names(const Discovery& d) {
     std::vector<std::string> list;
     for (const auto& s : d.steps) list.push_back(s.winner.effect);
@@ -68,7 +72,6 @@ TEST_F(Verdicts, AModelsOwnOutputWithWhiteNoiseIsAdequateForTwentySeeds) {
       Value(NumberList{Number{1, "m/V"}, Number{0.1, "m/V"}, Number{0.1, "m/V"}, Number{0.1, "m/V"}});
   const auto program = compile(d, registry);
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    const double slow = seed % 2 == 0 ? 0.3e-2 : 0;  // every other seed has a little 1/f noise too
     std::vector<Recording> list;
     int k = 0;
     for (const Role role : {Role::train, Role::train, Role::validate}) {
@@ -79,7 +82,7 @@ TEST_F(Verdicts, AModelsOwnOutputWithWhiteNoiseIsAdequateForTwentySeeds) {
       const auto series = std::make_shared<const Series>(Series{t, u, Between::linear});
       const auto y = simulate_rows(program, {series}, t, program->output_signals, true).front();
       list.push_back(recording(std::to_string(k) + ".csv", role, t, u,
-                               plus(y, noise(t.size(), 1e-2, slow, 100 * seed + static_cast<std::uint64_t>(k)))));
+                               plus(y, noise(t.size(), 1e-2, 0, 100 * seed + static_cast<std::uint64_t>(k)))));
       ++k;
     }
     const Discovery result = found(d, data_set(list, 1e-2));
@@ -197,7 +200,7 @@ DataSet low_gain_in_a_room_of(double kelvin) { return low_gain_in_rooms_of({kelv
 
 TEST_F(Verdicts, AGainFoundInAHotRoomMayBeTheTemperatures) {
   // 40 degC in all recordings: nothing shows what the gain would be at another temperature.
-  const Discovery hot = found(plain_gain(), low_gain_in_a_room_of(313.15));
+  const Discovery hot = found(plain_gain(), low_gain_in_a_room_of(313.15), true);
   EXPECT_EQ(to_text(hot.verdict), "not_distinguishable") << hot.headline;
   ASSERT_EQ(names(hot), std::vector<std::string>{"calibration"});
   ASSERT_EQ(hot.steps.front().ties.size(), 1u);
@@ -208,7 +211,7 @@ TEST_F(Verdicts, AGainFoundInAHotRoomMayBeTheTemperatures) {
 }
 
 TEST_F(Verdicts, AGainFoundInAUsualRoomIsACalibration) {
-  const Discovery usual = found(plain_gain(), low_gain_in_a_room_of(295.15));
+  const Discovery usual = found(plain_gain(), low_gain_in_a_room_of(295.15), true);
   EXPECT_EQ(to_text(usual.verdict), "missing_effect") << usual.headline;
   ASSERT_EQ(names(usual), std::vector<std::string>{"calibration"});
   EXPECT_TRUE(usual.steps.front().ties.empty());
@@ -217,7 +220,7 @@ TEST_F(Verdicts, AGainFoundInAUsualRoomIsACalibration) {
 TEST_F(Verdicts, AGainThatIsTheSameAtTwoTemperaturesIsACalibration) {
   // One recording is cooler than the others and as low. After so few, look-alikes are compared with a spare gain each:
   // beside it a gain by temperature would be the calibration again.
-  const Discovery both = found(plain_gain(), low_gain_in_rooms_of({305.15, 313.15, 313.15}));
+  const Discovery both = found(plain_gain(), low_gain_in_rooms_of({305.15, 313.15, 313.15}), true);
   EXPECT_EQ(to_text(both.verdict), "missing_effect") << both.headline;
   ASSERT_EQ(names(both), std::vector<std::string>{"calibration"});
   const auto other = std::find_if(both.candidates.begin(), both.candidates.end(),
@@ -335,8 +338,13 @@ TEST_F(Verdicts, AStepAtALevelIsNoCurveThoughACurveLeavesOnlyNoise) {
 
 TEST_F(Verdicts, WhatIsSlowAndLargerThanTheNoiseOfSensorsIsNotAdequate) {
   const auto nothing = [](double, double) { return 0.0; };
-  EXPECT_EQ(found(plain_gain(), with_added(nothing, 0.5e-3, 3500)).verdict, Verdict::adequate);
-  EXPECT_NE(found(plain_gain(), with_added(nothing, 3e-3, 3500)).verdict, Verdict::adequate);
+  DiscoverOptions options;
+  options.only = {"amplifier_lag", "saturation", "calibration"};
+  const auto judged = [&](double slow) {
+    return discover(plain_gain(), with_added(nothing, slow, 3500), registry, effects, options).verdict;
+  };
+  EXPECT_EQ(judged(0.5e-3), Verdict::adequate);
+  EXPECT_NE(judged(3e-3), Verdict::adequate);
 }
 
 TEST_F(Verdicts, WhatOtherRecordingsProveIsNoPatchWhereNothingIsLeftToPatch) {
@@ -363,7 +371,7 @@ TEST_F(Verdicts, WhatOtherRecordingsProveIsNoPatchWhereNothingIsLeftToPatch) {
   EXPECT_EQ(to_text(d.verdict), "missing_effect") << d.headline;
   ASSERT_FALSE(d.steps.empty());
   EXPECT_EQ(d.steps.front().winner.effect, "amplifier_lag");
-  EXPECT_LT(d.steps.front().winner.share_removed, rules::share_of_first);
+  EXPECT_LT(d.steps.front().winner.share_removed, 0.5);
 }
 
 TEST_F(Verdicts, AWrongGainIsACalibrationAndNothingElse) {
@@ -377,7 +385,7 @@ TEST_F(Verdicts, AWrongGainIsACalibrationAndNothingElse) {
     list.push_back(recording(std::to_string(seed) + ".csv", role, t, u, plus(y, noise(t.size(), 1e-3, 0, seed))));
     ++seed;
   }
-  const Discovery d = found(plain_gain(), data_set(list, 1e-3));
+  const Discovery d = found(plain_gain(), data_set(list, 1e-3), true);
   EXPECT_EQ(to_text(d.verdict), "missing_effect") << d.headline;
   EXPECT_EQ(names(d), std::vector<std::string>{"calibration"});
   ASSERT_FALSE(d.steps.empty());
@@ -402,7 +410,7 @@ TEST_F(Verdicts, WhatTheDataCannotShowIsRefusedWithTheReason) {
       if (r.effect == id) return r.reason;
     return std::string();
   };
-  EXPECT_NE(refused("creep").find("hold"), std::string::npos) << refused("creep");
+  EXPECT_NE(refused("mains_interference").find("120 Hz"), std::string::npos) << refused("mains_interference");
   EXPECT_NE(refused("initial_remanence").find("memory"), std::string::npos) << refused("initial_remanence");
 }
 

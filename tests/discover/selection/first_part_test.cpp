@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "discover/selection/select.h"
+#include "discover/selection/discover.h"
 #include "tests/discover/discoveries.h"
 #include "tests/discover/synthetic.h"
 
@@ -89,7 +89,7 @@ class PartOfLongRecordings : public Discoveries {
     }
     DiscoverOptions options;
     options.only = {"saturation", "calibration"};
-    return select_model(plain_gain(), data_set(std::move(list), white, 0), registry, effects, options);
+    return discover(plain_gain(), data_set(std::move(list), white, 0), registry, effects, options);
   }
   static bool is_told(const Discovery& d, const std::string& words) {
     return std::any_of(d.warnings.begin(), d.warnings.end(),

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "discover/selection/select.h"
+#include "discover/selection/discover.h"
 #include "tests/discover/discoveries.h"
 #include "tests/discover/synthetic.h"
 
@@ -59,7 +59,7 @@ class Limited : public Discoveries {
     }
     DiscoverOptions options;
     options.only = {planted.effect};
-    return select_model(plain_gain(), data_set(std::move(list), of_the_sensor, 0), registry, effects, options);
+    return discover(plain_gain(), data_set(std::move(list), of_the_sensor, 0), registry, effects, options);
   }
   static const EffectLimit* limit_of(const Discovery& d) { return d.limits.size() == 1 ? &d.limits.front() : nullptr; }
 };

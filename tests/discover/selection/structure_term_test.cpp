@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "discover/selection/select.h"
+#include "discover/selection/discover.h"
 #include "tests/discover/discoveries.h"
 #include "tests/discover/synthetic.h"
 
@@ -37,7 +37,7 @@ class StructureTerms : public Discoveries {
     DiscoverOptions options;
     options.only = {"calibration", "hysteresis",    "creep",          "asymmetry",
                     "saturation",  "amplifier_lag", "rate_dependence"};
-    return select_model(plain_gain(), recorded(hidden), registry, effects, options);
+    return discover(plain_gain(), recorded(hidden), registry, effects, options);
   }
 };
 

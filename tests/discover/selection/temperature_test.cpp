@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "discover/selection/select.h"
+#include "discover/selection/discover.h"
 #include "tests/discover/discoveries.h"
 #include "tests/discover/synthetic.h"
 
@@ -54,7 +54,7 @@ class SelectedByTemperature : public Discoveries {
     data.notes["T"].to = "T";
     DiscoverOptions options;
     options.only = std::move(only);
-    return select_model(diagram, data, registry, effects, options);
+    return discover(diagram, data, registry, effects, options);
   }
 };
 

@@ -133,7 +133,7 @@ class Interrupting(unittest.TestCase):
                 os.kill(os.getpid(), signal.SIGINT)
 
         with self.assertRaises(hy.Interrupted) as caught:
-            hy.load(demo / "stage.json").verb("discover", "--search", "steps", data=demo / "dataset.json", progress=progress)
+            hy.load(demo / "stage.json").verb("discover", data=demo / "dataset.json", progress=progress)
         self.assertIsNotNone(caught.exception.result)
 
     def test_what_a_handler_of_signals_raises_comes_through(self) -> None:

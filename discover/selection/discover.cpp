@@ -1,4 +1,4 @@
-#include "discover/selection/select.h"
+#include "discover/selection/discover.h"
 
 #include <fmt/format.h>
 
@@ -10,11 +10,13 @@
 #include <vector>
 
 #include "discover/search/between_samples.h"
+#include "discover/search/ties.h"
 #include "discover/selection/first_part.h"
 #include "discover/selection/kept_table.h"
 #include "discover/selection/limits.h"
 #include "discover/selection/selection.h"
 #include "discover/selection/structure_term.h"
+#include "engine/diagram/error.h"
 #include "engine/diagram/stop.h"
 
 namespace hysteron {
@@ -41,21 +43,17 @@ struct Told {
 
 /// Recordings with a model of them. Stays where it is: what was found refers to it.
 struct Search {
-  Search(const Asked& asked, const DataSet& data, std::vector<std::string> begin_in_motion)
-      : moving(std::move(begin_in_motion)),
-        state(asked.diagram, as_found(data, facts_of(moving)), asked.registry, asked.effects, asked.options) {
-    state.by_score = true;
+  /// `facts`: where recordings begin and how inputs move between their samples, as far as that was found (as_found).
+  Search(const Asked& asked, const DataSet& data, const Discovery& facts)
+      : state(asked.diagram, as_found(data, facts), asked.registry, asked.effects, asked.options) {
     state.d.asked_for = asked.options.only;
+    state.d.found_starts = facts.found_starts;
+    state.d.smooth_inputs = facts.smooth_inputs;
     fit_base(state);
   }
-  static Discovery facts_of(const std::vector<std::string>& moving) {
-    Discovery facts;
-    facts.found_starts = moving;
-    return facts;
-  }
 
-  const std::vector<std::string> moving;
   SearchState state;
+  std::optional<SmoothInput> smooth{};   ///< an input that moves smoothly, seen on the way: all begins anew with it
   std::optional<Selection> selection{};  ///< where effects were searched in these recordings
 };
 
@@ -120,9 +118,8 @@ std::vector<Addition> tied(const SearchState& state, const Selection& selection,
     if (!r.fitted.ok() || r.tried.effect == &effect || tie_score_of(selection.score(), r.fitted) < reach) continue;
     // What a law says with one number more it does not say by what it could be bent to.
     const bool has_spare = r.fitted.parameters > winner.parameters + 1;
-    if (has_spare && is_the_winner_and_more(state, r.tried, effect)) continue;
-    if (!why_implausible(*r.tried.effect, r.tried.laws[r.tried.law], r.fitted.model, r.tried.excitation).empty())
-      continue;
+    if ((has_spare || effect.straight) && is_the_winner_and_more(state, r.tried, effect)) continue;
+    if (!why_not_itself(r.tried, r.tried.law, r.fitted).empty()) continue;
     if (std::any_of(list.begin(), list.end(), [&](const Addition& a) { return a.tried.effect == r.tried.effect; }))
       continue;
     list.push_back(std::move(r));
@@ -134,6 +131,19 @@ std::string how_much_more(const Selection& selection, const TableModel& f, const
   const double more = selection.score_of(f) - selection.score_of(before);
   return fmt::format("its score is {:.1f} {} that of the model without it; {:.0f} more are asked", std::abs(more),
                      more < 0 ? "below" : "above", rules::by_score);
+}
+
+/// Share of what stands above the noise on validation recordings of these outputs (all if empty) that a model removes.
+double share_of(const ModelError& was, const ModelError& is, const std::vector<std::string>& outputs) {
+  double before = 0, after = 0;
+  for (std::size_t i = 0; i < was.recordings.size() && i < is.recordings.size(); ++i) {
+    const auto& r = was.recordings[i];
+    const bool counts = outputs.empty() || std::find(outputs.begin(), outputs.end(), r.output) != outputs.end();
+    if (r.role != Role::validate || !counts) continue;
+    before += r.excess();
+    after += is.recordings[i].excess();
+  }
+  return before > 0 ? 1 - after / before : 0;
 }
 
 void tell_step(SearchState& state, Search& searched, const Told& told, std::size_t k) {
@@ -148,10 +158,8 @@ void tell_step(SearchState& state, Search& searched, const Told& told, std::size
   w.candidate.error_of = state.evidence->error(w.candidate.prediction);
   w.fall_train = before.evidence_train - w.candidate.error_of.evidence_train;
   w.fall_validate = before.evidence_validate - w.candidate.error_of.evidence_validate;
-  const double excess = before.excess_validate();
-  w.share = excess > 0 ? std::clamp(1 - w.candidate.error_of.excess_validate() / excess, 0.0, 1.0) : 0;
+  w.share = std::clamp(share_of(before, w.candidate.error_of, {}), 0.0, 1.0);
   w.fall_by_recording = fall_by_recording(before, w.candidate.error_of);
-  w.admitted = true;
   w.reason = what_it_takes(w);
   const bool alone = told.chain.size() == 2;
   const int step = static_cast<int>(k) + 1;
@@ -173,11 +181,9 @@ void tell_step(SearchState& state, Search& searched, const Told& told, std::size
       TriedEffect rival = r.tried;
       rival.candidate = r.fitted.model;
       rival.candidate.error_of = searched.state.evidence->error(rival.candidate.prediction);
-      rival.admitted = true;
       rival.reason = "explains the recordings as well as the one that was taken";
       add_tie(searched.state, step, found, last, rival);
     }
-    return true;
   });
   found.before = before;
   found.after = w.candidate.error_of;
@@ -189,18 +195,75 @@ void tell_step(SearchState& state, Search& searched, const Told& told, std::size
   state.d.steps.push_back(std::move(found));
 }
 
+/// What a model takes away of what `before` leaves.
+struct Fall {
+  double train = 0, validate = 0;
+  std::vector<double> by_recording;
+};
+Fall fall_of(const Selection& selection, const Evidence& evidence, const TableModel& before, const TableModel& f) {
+  Fall fall;
+  const auto was = selection.score().chi2_of(before.left), is = selection.score().chi2_of(f.left);
+  for (std::size_t k = 0; k < was.size(); ++k) {
+    fall.by_recording.push_back(was[k] - is[k]);
+    const bool train = evidence.model().recording(f.left[k].recording).role == Role::train;
+    (train ? fall.train : fall.validate) += was[k] - is[k];
+  }
+  return fall;
+}
+
+/// All laws by which a candidate was fitted.
+std::vector<TriedLaw> laws_of(const Selection& selection, const Evidence& evidence, const TableModel& before,
+                              const Addition& rival) {
+  std::vector<TriedLaw> laws;
+  for (const auto& [law, f] : rival.by_law) {
+    TriedLaw tried;
+    tried.law = rival.tried.laws[law].name;
+    tried.failed = !f.ok();
+    tried.taken = f.ok() && law == rival.tried.law;
+    if (f.ok()) {
+      Fall fall = fall_of(selection, evidence, before, f);
+      tried.parameters = f.parameters;
+      tried.fall_train = fall.train;
+      tried.fall_validate = fall.validate;
+      tried.fall_by_recording = std::move(fall.by_recording);
+      tried.score = selection.score_of(f) - selection.score_of(before);
+      const double less = selection.score_of(rival.fitted) - selection.score_of(f);
+      if (!tried.taken)
+        tried.reason =
+            less > 0 ? fmt::format("its score is {:.1f} below that of {}", less, rival.tried.laws[rival.tried.law].name)
+                     : why_not_itself(rival.tried, law, f);
+    } else {
+      tried.reason = "could not be fitted: " + f.model.error;
+    }
+    laws.push_back(std::move(tried));
+  }
+  return laws;
+}
+
 void tell_candidates(SearchState& state, const Search& searched, const Told& told) {
   const Selection& selection = *searched.selection;
+  const Evidence& evidence = *searched.state.evidence;
   int step = 0;
   for (const auto& round : selection.rounds()) {
     ++step;
     const TableModel& before = step == 1 ? selection.nulls().better(selection.score()) : round.on;
+    const ModelError was = evidence.error(before.model.prediction);
     for (const auto& r : round.rivals) {
       TriedEffect t = r.tried;
       t.candidate = r.fitted.model;
-      if (t.candidate.ok) t.candidate.error_of = searched.state.evidence->error(t.candidate.prediction);
-      t.reason =
-          !r.fitted.ok() ? "could not be fitted: " + r.fitted.model.error : how_much_more(selection, r.fitted, before);
+      if (t.candidate.ok) {
+        t.candidate.error_of = evidence.error(t.candidate.prediction);
+        const Fall fall = fall_of(selection, evidence, before, r.fitted);
+        t.share = share_of(was, t.candidate.error_of, t.outputs);
+        t.fall_train = fall.train;
+        t.fall_validate = fall.validate;
+        t.score = selection.score_of(r.fitted) - selection.score_of(before);
+        t.reason = why_not_itself(t, t.law, r.fitted);
+        if (t.reason.empty()) t.reason = how_much_more(selection, r.fitted, before);
+      } else {
+        t.reason = "could not be fitted: " + r.fitted.model.error;
+      }
+      t.laws_tried = laws_of(selection, evidence, before, r);
       Candidate c = candidate_of(t, step);
       for (const auto& s : told.chain.back().placed)
         c.claimed = c.claimed || (s.effect->id == c.effect && s.place.where() == c.place);
@@ -214,14 +277,14 @@ void tell_numbers(SearchState& state, const FitSetting& setting, const Told& tol
   for (const auto& e : fit.estimates)
     if (const auto n = told.kept.find(e.path);
         n != told.kept.end() && std::abs(e.used / n->second - 1) > as_written * setting.known_to(e.path))
-      state.d.other_numbers.push_back({e.path, e.unit, e.difference, n->second, e.used, sigma_by_witnesses(fit, e)});
+      state.d.other_numbers.push_back({e.path, e.unit, e.difference, n->second, e.used, sigma_by_witnesses(e)});
   std::stable_sort(state.d.other_numbers.begin(), state.d.other_numbers.end(), [](const auto& a, const auto& b) {
     return std::abs(a.found / a.written - 1) > std::abs(b.found / b.written - 1);
   });
 }
 
-void tell_starts(SearchState& state, const std::vector<std::string>& moving) {
-  state.d.found_starts = moving;
+void tell_starts(SearchState& state) {
+  const auto& moving = state.d.found_starts;
   if (moving.empty()) return;
   state.d.warnings.push_back(fmt::format(
       "{} {} not begin at rest: where {} was found with everything else. Say so in the data set: "
@@ -229,11 +292,58 @@ void tell_starts(SearchState& state, const std::vector<std::string>& moving) {
       fmt::join(moving, ", "), moving.size() == 1 ? "does" : "do", moving.size() == 1 ? "it begins" : "they begin"));
 }
 
-std::unique_ptr<Search> search_in(const Asked& asked, const DataSet& data) {
-  auto search = std::make_unique<Search>(
-      asked, data, begin_in_motion(asked.diagram, data, asked.registry, asked.effects, asked.options));
+/// An input that moves smoothly where more than noise is left by this model, which is fitted so.
+std::optional<SmoothInput> smooth_input_of(SearchState& state, const CandidateModel& model, const FitContext& fits) {
+  std::optional<SmoothInput> smooth;
+  if (!model.ok) return smooth;
+  state.current = model;
+  state.settle(state.current);
+  if (state.current.error_of.over_floor() > rules::floor_gate)
+    state.unless_stopped([&] { smooth = find_smooth_input(state, fits); });
+  return smooth;
+}
+
+/// What was found stays found where the search for more fails: a model that was fitted may be one that cannot be
+/// simulated with another effect.
+void select(Search& search) {
+  const auto is_over = [&](const TableModel& best) {
+    const FitSetting& setting = search.selection->setting();
+    search.smooth = smooth_input_of(
+        search.state, best.model, context_for(setting, search.state.context, weights_of(setting, best), best.numbers));
+    return search.smooth.has_value();
+  };
+  try {
+    search.state.unless_stopped([&] { search.selection->run(is_over); });
+  } catch (const Error& e) {
+    if (search.selection->rounds().empty()) throw;
+    search.state.d.warnings.push_back(fmt::format("the search for further effects ended early: {}", e.what()));
+  }
+}
+
+/// The recordings with these facts, and what was found in them. How an input moves may show in what the user's model
+/// leaves, or behind a strong effect once that is known.
+std::unique_ptr<Search> search_with(const Asked& asked, const DataSet& data, const Discovery& facts) {
+  auto search = std::make_unique<Search>(asked, data, facts);
   search->selection.emplace(search->state, numbers_not_exact(search->state));
-  search->state.unless_stopped([&] { search->selection->run(); });
+  search->smooth = smooth_input_of(search->state, search->state.base, search->state.context);
+  if (!search->smooth) select(*search);
+  return search;
+}
+
+std::unique_ptr<Search> search_in(const Asked& asked, const DataSet& data) {
+  Discovery facts;
+  facts.found_starts = begin_in_motion(asked.diagram, data, asked.registry, asked.effects, asked.options);
+  auto search = search_with(asked, data, facts);
+  while (search->smooth && !search->state.stopped()) {
+    search->state.progress("anew: " + search->smooth->input + " moves smoothly between its samples", 0);
+    facts.smooth_inputs.push_back(*search->smooth);
+    auto again = search_with(asked, data, facts);
+    const auto names = [](const Search& s) { return terms_of(s.selection->best().model).size(); };
+    // Broken off before it had found again what was found without: that is still true.
+    if (again->state.stopped() && names(*again) < names(*search)) break;
+    search = std::move(again);
+  }
+  if (search->smooth) tell_unused(search->state, *search->smooth);
   search->state.d.broken_off = search->state.stopped();
   search->state.closing = true;  // what was found is told in full
   return search;
@@ -291,13 +401,11 @@ Discovery tell(std::unique_ptr<Search> searched, std::unique_ptr<Search> elsewhe
     tell_numbers(state, searched->selection->setting(), *told);
   }
   if (!state.d.steps.empty())
-    state.unless_stopped([&] {
-      if (auto ahead = structure_ahead(searched->state, *searched->selection))
-        state.ahead_of_effects.emplace(std::move(ahead->search), ahead->by);
-    });
+    state.unless_stopped([&] { state.structure = structure_beside_effects(searched->state, *searched->selection); });
   tell_ways_between(state, *searched);
-  if (!state.ahead_of_effects) tell_limits(searched->state, *searched->selection, state.d);
-  tell_starts(state, searched->moving);
+  if (!state.structure || !state.structure->judged.requirement.passed())
+    tell_limits(searched->state, *searched->selection, state.d);
+  tell_starts(state);
   if (state.options.keeps_table) state.d.table = table_of(searched->state, *searched->selection);
   state.d.model_runs = searched->state.context.derivatives->runs();
   if (elsewhere) {  // long recordings: what is not needed any more goes
@@ -311,13 +419,13 @@ Discovery tell(std::unique_ptr<Search> searched, std::unique_ptr<Search> elsewhe
 
 }  // namespace
 
-Discovery select_model(const Diagram& diagram, const DataSet& data, const Registry& registry, const Effects& effects,
-                       const DiscoverOptions& options) {
+Discovery discover(const Diagram& diagram, const DataSet& data, const Registry& registry, const Effects& effects,
+                   const DiscoverOptions& options) {
   const Asked asked{diagram, registry, effects, options};
   const auto part = first_part(data);
   auto searched = search_in(asked, part ? *part : data);
   if (part && searched->selection->best().ok()) {
-    auto all = std::make_unique<Search>(asked, data, searched->moving);
+    auto all = std::make_unique<Search>(asked, data, searched->state.d);
     all->state.d.broken_off = searched->state.d.broken_off;
     all->state.closing = true;
     Told told = to_be_told(all->state, *searched);
@@ -336,6 +444,12 @@ Discovery select_model(const Diagram& diagram, const DataSet& data, const Regist
   std::optional<Told> told;
   if (searched->selection->best().ok()) told = to_be_told(searched->state, *searched);
   return tell(std::move(searched), nullptr, std::move(told));
+}
+
+Discovery diagnose(const Diagram& diagram, const DataSet& data, const Registry& registry, const Effects& effects,
+                   DiscoverOptions options) {
+  options.max_steps = 1;
+  return discover(diagram, data, registry, effects, options);
 }
 
 }  // namespace hysteron

@@ -1,6 +1,6 @@
 // Does a model still explain a recording as it stands: yes for its own output with noise, no with the name of what is
 // new.
-#include "discover/search/check.h"
+#include "discover/selection/check.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,13 @@
 // Decides whether a model still explains a recording. See check.h.
-#include "discover/search/check.h"
+#include "discover/selection/check.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
+
+#include "discover/selection/discover.h"
+#include "fit/model/free_parameter.h"
 
 namespace hysteron {
 namespace {
@@ -69,9 +72,10 @@ Check check(const Diagram& diagram, const DataSet& given, const Registry& regist
     c.sentence = "Explained. " + c.discovery.headline;
     return c;
   }
-  Discovery fitted = discover(diagram, data, registry, effects, options);
-  if (!fitted.base_parameters.empty()) {
-    c.discovery = std::move(fitted);
+  if (!free_parameters(*compile(diagram, registry), options.free_paths).empty()) {
+    DiscoverOptions free = options;
+    free.numbers_are_exact = true;  // what is not free has not moved, or is told as what it looks like
+    c.discovery = discover(diagram, data, registry, effects, free);
     c.moved = c.discovery.verdict == Verdict::adequate;
   }
   c.named = c.moved ? std::vector<std::string>{"parameters"} : names_of(c.discovery);

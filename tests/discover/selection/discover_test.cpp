@@ -1,5 +1,5 @@
 // What a search by whole models says of machines whose truth is known, made by formulas of their own.
-#include "discover/selection/select.h"
+#include "discover/selection/discover.h"
 
 #include <gtest/gtest.h>
 
@@ -90,7 +90,7 @@ class Selected : public Discoveries {
                                                       "backlash", "quadratic_drag"}) {
     DiscoverOptions options;
     options.only = std::move(only);
-    return select_model(mass_on_spring(), data, registry, effects, options);
+    return discover(mass_on_spring(), data, registry, effects, options);
   }
 };
 
@@ -128,7 +128,7 @@ TEST_F(Selected, ANumberThatIsKnownWellMovesAsFarAsThatAllows) {
   DiscoverOptions options;
   options.only = {"stiffening", "quadratic_drag"};
   const auto found = [&](double part) {
-    return select_model(known_to(part), recorded(machine), registry, effects, options);
+    return discover(known_to(part), recorded(machine), registry, effects, options);
   };
   const Discovery rough = found(0.02);
   EXPECT_EQ(rough.verdict, Verdict::adequate) << tried(rough);
@@ -206,7 +206,7 @@ TEST_F(Selected, ACarriageUnderWayIsToldAsThat) {
   }
   DiscoverOptions options;
   options.only = {"amplifier_lag", "saturation", "calibration"};
-  const Discovery found = select_model(d, data_set(std::move(list), white, 0), registry, effects, options);
+  const Discovery found = discover(d, data_set(std::move(list), white, 0), registry, effects, options);
   EXPECT_EQ(found.verdict, Verdict::adequate) << tried(found);
   EXPECT_EQ(found.found_starts, (std::vector<std::string>{"0.csv", "1.csv", "2.csv"}));
 }
@@ -252,7 +252,7 @@ TEST_F(Selected, FrictionBesideADampingIsFoundWithItsTorque) {
   data.recordings = std::move(list);
   DiscoverOptions options;
   options.only = {"friction"};  // beside the damping, on the speed for all who read it, on what is read
-  const Discovery d = select_model(motor(), data, registry, effects, options);
+  const Discovery d = discover(motor(), data, registry, effects, options);
   EXPECT_EQ(d.verdict, Verdict::missing_effect) << tried(d);
   ASSERT_EQ(d.steps.size(), 1u) << tried(d);
   EXPECT_EQ(winner(d), "friction") << tried(d);
@@ -297,7 +297,7 @@ TEST_F(Selected, WhatActsInTheRecordingThatJudgesIsFound) {
   }
   DiscoverOptions options;
   options.only = {"overflow", "saturation", "calibration"};
-  const Discovery found = select_model(d, data_set(std::move(list), quiet, 0), registry, effects, options);
+  const Discovery found = discover(d, data_set(std::move(list), quiet, 0), registry, effects, options);
   ASSERT_EQ(found.steps.size(), 1u) << tried(found);
   EXPECT_EQ(winner(found), "overflow") << tried(found);
   EXPECT_NEAR(value(found, "brim"), brim, 1e-4) << "10 times the noise, for the steps in time";
@@ -310,9 +310,9 @@ TEST_F(Selected, DoesNotDependOnTheNumberOfThreads) {
   DiscoverOptions options;
   options.only = {"stiffening", "calibration", "amplifier_lag", "saturation"};
   options.threads = Threads{1};
-  const Discovery one = select_model(mass_on_spring(), data, registry, effects, options);
+  const Discovery one = discover(mass_on_spring(), data, registry, effects, options);
   options.threads = Threads{3};
-  const Discovery three = select_model(mass_on_spring(), data, registry, effects, options);
+  const Discovery three = discover(mass_on_spring(), data, registry, effects, options);
   ASSERT_EQ(one.candidates.size(), three.candidates.size());
   for (std::size_t i = 0; i < one.candidates.size(); ++i) {
     EXPECT_EQ(one.candidates[i].effect, three.candidates[i].effect);

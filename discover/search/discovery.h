@@ -59,7 +59,7 @@ struct Candidate {
   int step = 1;        ///< 1 = tried on the base, 2 = on top of the first finding ...
   int parameters = 0;  ///< free parameters that it spends (those not at a bound)
   double fall_train = 0, fall_validate = 0;  ///< of chi2 against the model before, in units of the noise
-  double score = 0;                          ///< chi2_train + chi2_validate + p ln N, lower is better
+  double score = 0;                          ///< above that of the model before (selection/block_score.h)
   double share_removed = 0;                  ///< of the validation excess over the noise
   ModelError error;
   std::vector<FoundParameter> found;
@@ -212,18 +212,8 @@ struct DiscoverOptions {
   Threads threads{};                        ///< candidates side by side; no answer depends on it
 };
 
-/// The whole loop. Throws Error where diagram and data do not fit together; a candidate that fails costs only itself.
-/// Throws Stopped where the caller's own scope (engine/diagram/stop.h) ends it before the user's model was simulated
-/// once.
-Discovery discover(const Diagram& diagram, const DataSet& data, const Registry& registry, const Effects& effects,
-                   const DiscoverOptions& options = {});
-
 /// The data set that the figures of a discovery hold for: as given, but for how inputs move between samples and where
 /// recordings begin.
 DataSet as_found(DataSet data, const Discovery& found);
-
-/// WHICH effect is missing: the first step of discover alone.
-Discovery diagnose(const Diagram& diagram, const DataSet& data, const Registry& registry, const Effects& effects,
-                   DiscoverOptions options = {});
 
 }  // namespace hysteron

@@ -1,0 +1,36 @@
+#include "discover/search/investigation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace hysteron {
+
+std::string what_it_takes(const TriedEffect& tried) {
+  return fmt::format(
+      "explains {} of the error above the noise on recordings not used for the fit (chi2 falls by {:.0f})",
+      percent(std::clamp(tried.share, 0.0, 1.0)), tried.fall_validate);
+}
+
+std::string why_implausible(const Effect& effect, const Law& law, const CandidateModel& fitted, const Excitation& at) {
+  if (!effect.implausible) return "";
+  const auto values = values_of(fitted, fitted.placed.size() - 1);
+  return !values.empty() && values.size() == law.free.size() ? effect.implausible(law, values, at) : "";
+}
+
+bool look_alike(const Effect& a, const Effect& b) {
+  const auto names = [](const Effect& x, const Effect& y) {
+    return std::any_of(x.look_alikes.begin(), x.look_alikes.end(),
+                       [&](const LookAlike& l) { return l.effect == y.id; });
+  };
+  return names(a, b) || names(b, a);
+}
+
+std::vector<double> fall_by_recording(const ModelError& before, const ModelError& after) {
+  std::vector<double> falls;
+  for (std::size_t i = 0; i < before.recordings.size() && i < after.recordings.size(); ++i)
+    falls.push_back(before.recordings[i].evidence - after.recordings[i].evidence);
+  return falls;
+}
+
+}  // namespace hysteron
