@@ -38,7 +38,7 @@ class CreepLaws : public Discoveries {
 
 TEST_F(CreepLaws, TheLogarithmOfTimeIsTwoNumbers) {
   const auto d = discovered(plain_gain(), recorded([](double t) { return 0.01 * std::log10(1 + t / 0.2); }),
-                            {"creep", "thermal_expansion", "hysteresis", "amplifier_lag"});
+                            {"creep", "thermal_expansion", "hysteresis", "amplifier_lag"}, exact());
   ASSERT_EQ(d.steps.size(), 1U) << tried(d);
   EXPECT_EQ(d.steps.front().winner.law, "logarithm of time") << tried(d);
   // 4000 rows of noise 2e-4 tell 0.01 to some 1e-5 (1/f noise beside it: some times that); steps take one row of 20 ms,

@@ -235,7 +235,7 @@ TEST_F(MachineEffects, PlayOfAGearIsNamedInRadiansOfItsDrivenSide) {
   const GearedDrive g;
   const auto data =
       recorded([&](const auto& t, const auto& u) { return geared(g, t, u); }, rows(500, 0.006), 3, 1e-4, "rad");
-  const Discovery d = diagnosed(geared(g), data, {"backlash", "friction", "quadratic_drag", "amplifier_lag"});
+  const Discovery d = diagnosed(geared(g), data, {"backlash", "friction", "quadratic_drag", "amplifier_lag"}, exact());
   ASSERT_EQ(d.steps.size(), 1u) << tried(d);
   const auto& winner = d.steps.front().winner;
   EXPECT_EQ(winner.effect, "backlash") << tried(d);
@@ -307,7 +307,7 @@ TEST_F(MachineEffects, PlayOfASensorIsNotTakenForThatOfTheGear) {
   const auto data =
       recorded([&](const auto& t, const auto& u) { return behind_a_loose_coupling(geared(g, t, u), 0.02); },
                rows(500, 0.006), 3, 1e-4, "rad");
-  const Discovery d = diagnosed(geared(g), data, {"backlash", "friction", "quadratic_drag", "amplifier_lag"});
+  const Discovery d = diagnosed(geared(g), data, {"backlash", "friction", "quadratic_drag", "amplifier_lag"}, exact());
   ASSERT_EQ(d.steps.size(), 1u) << tried(d);
   EXPECT_EQ(d.steps.front().winner.effect, "backlash") << tried(d);
   EXPECT_EQ(d.steps.front().winner.place, "outputs.y") << tried(d);
