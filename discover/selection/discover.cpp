@@ -403,7 +403,7 @@ Discovery tell(std::unique_ptr<Search> searched, std::unique_ptr<Search> elsewhe
   if (!state.d.steps.empty())
     state.unless_stopped([&] { state.structure = structure_beside_effects(searched->state, *searched->selection); });
   tell_ways_between(state, *searched);
-  if (!state.structure || !state.structure->judged.requirement.passed())
+  if (!state.stopped() && (!state.structure || !state.structure->judged.requirement.passed()))
     tell_limits(searched->state, *searched->selection, state.d);
   tell_starts(state);
   if (state.options.keeps_table) state.d.table = table_of(searched->state, *searched->selection);
@@ -425,6 +425,7 @@ Discovery discover(const Diagram& diagram, const DataSet& data, const Registry& 
   const auto part = first_part(data);
   auto searched = search_in(asked, part ? *part : data);
   if (part && searched->selection->best().ok()) {
+    const StopScope to_its_end(nullptr);
     auto all = std::make_unique<Search>(asked, data, searched->state.d);
     all->state.d.broken_off = searched->state.d.broken_off;
     all->state.closing = true;
@@ -441,6 +442,7 @@ Discovery discover(const Diagram& diagram, const DataSet& data, const Registry& 
     searched->state.d.warnings.push_back(
         fmt::format("The first {} do not show all that acts: effects were searched for in all rows.", parts_of(*part)));
   }
+  const StopScope to_its_end(nullptr);  // whoever stops the search is told what it had found
   std::optional<Told> told;
   if (searched->selection->best().ok()) told = to_be_told(searched->state, *searched);
   return tell(std::move(searched), nullptr, std::move(told));
