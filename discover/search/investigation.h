@@ -1,5 +1,5 @@
 // Decides what is kept of each step of a discovery: what was tried, at which places, with what result.
-// Internal to discover; the rules of judging are in judge_step.cpp, the loop in discover.cpp, the words in words.cpp.
+// Internal to discover; the words are in words.cpp.
 #pragma once
 
 #include <memory>

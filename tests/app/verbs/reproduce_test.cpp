@@ -411,7 +411,7 @@ TEST_F(Reproduce, WrongInputIsToldWithFileLineAndNearestName) {
 
 TEST_F(Reproduce, JobsAndValuesThatNeedThemselvesAreToldSo) {
   refused(figure1, "\"half\": {\"choose\": {\"comp\": \"half\"}}",
-          "\"half\": {\"from\": \"fig2_2.json\", \"run\": \"loop\"}", "jobs take runs of each other");
+          "\"half\": {\"from\": \"fig2_2.json\", \"run\": \"loop\"}", "jobs take runs from each other");
   refused(figure1, "\"full\": {\"title\": \"Full\"}", "\"full\": {\"set\": {\"drive.offset\": {\"of\": \"stroke\"}}}",
           "needs itself");
 }
