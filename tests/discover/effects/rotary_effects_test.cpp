@@ -131,16 +131,5 @@ TEST_F(RotaryEffects, CoggingOfALinearMotorIsNamedWithItsForceAndItsPeriod) {
   EXPECT_NEAR(std::hypot(value(found, "cosine"), value(found, "sine")), 0.02, 2e-4);
 }
 
-TEST_F(RotaryEffects, CoggingIsNamedWithItsTorqueAndItsPeriodsInATurn) {
-  const Shaft s{.inertia = 0.02, .damping = 0.05, .stiffness = 0, .cogging = -0.02, .periods = 12, .gain = 0.05};
-  const Discovery d = diagnosed(shaft(s), turned_recordings(s, 1e-4, 0.005, 20),
-                                {"friction", "quadratic_drag", "cogging", "backlash", "sensor_nonlinearity"}, exact());
-  ASSERT_EQ(d.steps.size(), 1u) << tried(d);
-  const auto& winner = d.steps.front().winner;
-  EXPECT_EQ(winner.effect, "cogging") << tried(d);
-  EXPECT_NEAR(value(d, "periods"), 12, 0.01);
-  EXPECT_NEAR(std::hypot(value(d, "cosine"), value(d, "sine")), 0.02, 2e-4);
-}
-
 }  // namespace
 }  // namespace hysteron
