@@ -37,7 +37,6 @@ Effect asymmetry() {
   };
   e.parameters.front().range = "up to 10 % of the linear part";
   e.look_alikes.push_back({"sensor_nonlinearity", "reference_sensor", "a sensor's curve has no memory"});
-  e.leaves = {"sensor_nonlinearity", "saturation"};  // no curve of a device is a polynomial
   return e;
 }
 

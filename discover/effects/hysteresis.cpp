@@ -369,7 +369,6 @@ Effect hysteresis() {
   e.contains = {"calibration", "friction"};
   // Where domains switch is uneven in other ways than any few plays are: the middle line of the loops is bent, and one
   // more element slips.
-  e.leaves = {"asymmetry", "sensor_nonlinearity", "saturation", "stiffening", "friction"};
   e.variation = "hysteretic_spring";
   e.summary = loop_width;
   e.implausible = why_no_hysteresis;

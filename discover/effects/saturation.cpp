@@ -26,7 +26,6 @@ Effect saturation() {
                    {"asymmetry", "sine_amplitudes", "a clamp does nothing below its level"},
                    {"sensor_nonlinearity", "reference_sensor", "a clamp does nothing below its level"}};
   e.family = "saturation";
-  e.leaves = {"asymmetry", "sensor_nonlinearity"};  // no supply's knee is quite this one
   e.summary = [](const Law& law, const std::vector<double>& values, const Excitation& at) {
     if (law.block.type == "soft_saturation")
       return fmt::format("at {:.4g} {}, sharpness {:.2g}", at.unit.difference_from_si(values[0]), at.unit.text,

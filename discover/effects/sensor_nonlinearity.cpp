@@ -37,7 +37,6 @@ Effect sensor_nonlinearity() {
   e.laws = curves_of_sensor;
   e.parameters.front().range = "0.02 .. 1 % of full scale";
   e.look_alikes.push_back({"asymmetry", "reference_sensor", "a sensor's curve has no memory"});
-  e.leaves = {"asymmetry", "saturation"};  // no curve of a sensor is a polynomial
   return e;
 }
 

@@ -96,11 +96,6 @@ Effect thermal_expansion() {
                           time_text(values[parts + k]));
     return text;
   };
-  e.own_zero = [](const Law&, const std::vector<double>& values) {
-    double per_kelvin = 0;
-    for (std::size_t k = 0; k < values.size() / 2; ++k) per_kelvin += values[k];
-    return std::abs(per_kelvin) * another_day;
-  };
   e.laws = [](const Excitation& at) { return std::vector<Law>{parts(at, 1), parts(at, 2)}; };
   e.seen_by_degrees = true;
   e.unseen = [](const Excitation& at) -> std::string {

@@ -176,9 +176,6 @@ struct Effect {
   /// found anew.
   bool moves_zero = false;
   bool of_the_sensor() const { return places == std::vector<std::string>{"measured"}; }  ///< it enters nowhere else
-  /// How far its law may move the zero by itself [SI of the wire]: the model's zero belongs to another circumstance
-  /// than the recordings'. Empty: not at all, for the law is neutral at rest.
-  std::function<double(const Law&, const std::vector<double>&)> own_zero{};
   bool is_memory = false;  ///< the law remembers turning points
   std::vector<EffectParameter> parameters;
   std::vector<LookAlike> look_alikes;
@@ -186,7 +183,6 @@ struct Effect {
   std::string law_of{};
   std::string family;  ///< effects of one family differ by place only ("lag": in the amplifier or in the sensor)
   std::vector<std::string> contains;  ///< effects that its law can imitate with spare parameters: no rival of theirs
-  std::vector<std::string> leaves;    ///< effects that look like what its laws leave of their own, not being exact
   /// Effects that ask for less to be believed: where they explain as much, they go first.
   std::vector<std::string> plainer;
   /// Laws, simplest first; those behind the first are tried where the first is among the best, or where they stand

@@ -42,32 +42,13 @@ Prediction predicted_with(const FitContext& context, const CandidateModel& c, Ef
   return model.predict(trial, train_and_validate(*context.data));
 }
 
-/// See CandidateModel::without_line; as accurate as `c` itself, for the two are compared.
-void look_without_line(const FitContext& context, CandidateModel& c, Effort effort) {
-  c.without_line.reset();
-  const double line = c.placed.empty() ? 0 : line_of(c);
-  const auto coarse = [&](int r) {
-    return !resolves(median_step(context.data->recordings[static_cast<std::size_t>(r)].t), line);
-  };
-  const auto judged = train_and_validate(*context.data);
-  if (std::none_of(judged.begin(), judged.end(), coarse)) return;
-  c.without_line = predicted_with(context, c, effort, [&](const RecordingValue& v) {
-    return v.path.starts_with(c.placed.back().name + ".") && !coarse(v.recording);
-  });
-}
-
 constexpr char broken_off[] = "the search was broken off before";
 
 CandidateModel guarded(const FitContext& context, CandidateModel c, Effort effort, int fresh, int held_parameters) {
   try {
     fit_candidate_model(context, c, effort, fresh);
-    if (c.ok) look_without_line(context, c, effort);
     if (c.ok && context.evidence != nullptr) c.error_of = context.evidence->error(c.prediction);
     // Effects that were held keep what they spent before.
-    c.found_on_validation = 0;
-    for (const auto& v : c.of_recordings)
-      if (context.data->recordings[static_cast<std::size_t>(v.recording)].role == Role::validate)
-        ++c.found_on_validation;
     c.parameters = effort == Effort::screen && fresh >= 0 ? held_parameters + spent(c, fresh) : spent(c, -1);
   } catch (const Error& e) {
     c.ok = false;
@@ -93,11 +74,6 @@ void FitContext::free_nominal_parameters(const std::map<std::string, double>& nu
   roughly = numbers;
   for (const auto& [path, written] : numbers) free_paths.push_back(path);
 }
-
-double CandidateModel::score() const {
-  return error_of.evidence() + parameters * std::log(std::max(error_of.effective_sample_size, 2.0));
-}
-double CandidateModel::tie_score() const { return error_of.evidence() + 2.0 * parameters; }
 
 CandidateModel base_model(const FitContext& context, const Diagram& diagram, Effort effort) {
   CandidateModel c;
@@ -214,10 +190,6 @@ CandidateModel without(const FitContext& context, const CandidateModel& candidat
   return c;
 }
 
-CandidateModel before_last(const FitContext& context, const CandidateModel& candidate) {
-  return without(context, candidate, candidate.placed.size() - 1);
-}
-
 Prediction without_lines(const FitContext& context, const CandidateModel& candidate) {
   return predicted_with(context, candidate, Effort::full, [&](const RecordingValue& v) {
     return std::any_of(candidate.placed.begin(), candidate.placed.end(),
@@ -255,12 +227,6 @@ std::vector<ParameterOfEffect> parameters_of(const CandidateModel& candidate, in
     }
   }
   return list;
-}
-
-double line_of(const CandidateModel& candidate) {
-  for (const auto& p : parameters_of(candidate, static_cast<int>(candidate.placed.size()) - 1))
-    if (!p.law->line_bands.empty() && p.estimate != nullptr) return p.estimate->used;
-  return 0;
 }
 
 std::vector<double> values_of(const CandidateModel& candidate, std::size_t standing) {

@@ -50,15 +50,8 @@ struct CandidateModel {
   std::vector<std::map<std::string, double>> starts;
   Prediction prediction;  ///< train and validate recordings
   ModelError error_of;    ///< filled in by whoever holds the evidence
-  /// Where rows of some recordings are too coarse for the line of the last effect: the same without that line, where
-  /// they are fine enough. What it takes away there proves it (see `proved`).
-  std::optional<Prediction> without_line;
-  int parameters = 0;  ///< that the effects spend: of their laws, determined and not held at a bound
-  /// Of them, found on validate recordings: what they take away there by themselves is no evidence.
-  int found_on_validation = 0;
+  int parameters = 0;     ///< that the effects spend: of their laws, determined and not held at a bound
   long runs = 0;
-  double score() const;      ///< evidence + p ln N, N = independent witnesses
-  double tie_score() const;  ///< evidence + 2 p
 };
 
 /// Numbers that the user holds, where they are let go: 95 % are as near to what is written as this, and none is
@@ -117,8 +110,6 @@ CandidateModel refit(const FitContext& context, const CandidateModel& candidate,
 /// The same model without one of its effects, with the values that were found together with it; not simulated. Not ok
 /// where another one stands upon it.
 CandidateModel without(const FitContext& context, const CandidateModel& candidate, std::size_t standing);
-/// What stood before the last effect, with the values that were found together with it.
-CandidateModel before_last(const FitContext& context, const CandidateModel& candidate);
 
 /// The effect is a straight line: its gain and zero are free whatever else is fitted.
 bool calibrates(const PlacedEffect& standing);
@@ -138,10 +129,6 @@ struct ParameterOfEffect {
   const ParameterEstimate* estimate = nullptr;
 };
 std::vector<ParameterOfEffect> parameters_of(const CandidateModel& candidate, int standing = -1);
-/// [Hz] of the line that the last effect's law looks for; 0 = it looks for none.
-double line_of(const CandidateModel& candidate);
-/// Rows so far apart [s] tell a line from slower ones.
-inline bool resolves(double step, double line) { return 2 * step * line < 1; }
 /// Values [SI] of the parameters of one effect that were estimated, in the order of its law.
 std::vector<double> values_of(const CandidateModel& candidate, std::size_t standing);
 

@@ -83,28 +83,6 @@ bool one_dimension(const DataModel& model) {
   return true;
 }
 
-/// chi2 and coefficients by the octave of half periods in a recording, of one output.
-class Octaves {
- public:
-  /// Whitened cosines of one recording; the first is that of `first` half periods.
-  void add(std::span<const double> w, std::size_t first) {
-    for (std::size_t k = 0; k < w.size(); ++k) {
-      const auto octave = static_cast<std::size_t>(std::bit_width(k + first));
-      chi2_.at(octave) += w[k] * w[k];
-      n_.at(octave) += 1;
-    }
-  }
-  double furthest() const {
-    double most = 0;
-    for (std::size_t i = 0; i < n_.size(); ++i)
-      if (n_[i] > 0) most = std::max(most, (chi2_[i] - n_[i]) / std::sqrt(2 * n_[i]));
-    return most;
-  }
-
- private:
-  std::array<double, std::numeric_limits<std::size_t>::digits + 1> chi2_{}, n_{};
-};
-
 }  // namespace
 
 Evidence::Evidence(const DataModel& base) : base_(base), before_(noise_before_fit(base)) {
@@ -160,16 +138,9 @@ void Evidence::settle(const Prediction& best) {
   Prediction with_zeros = best;
   add_zeros(base_, *judge_, with_zeros);
   NoiseModel noise = noise_from_residual(base_, before_, with_zeros, recordings_);
-  beside_lines_.reset();
-  if (std::any_of(lines_.begin(), lines_.end(), [](const auto& line) { return line.has_value(); })) {
-    NoiseModel beside = noise;
-    for (std::size_t o = 0; o < spans_.size(); ++o) {
-      const bool all_of_it = lines_[o] && lines_[o]->by_user;
-      noise.outputs[o].left_out = {spans_[o], all_of_it ? LineSpan::Part::all : LineSpan::Part::wandering};
-      beside.outputs[o].left_out = {spans_[o], LineSpan::Part::all};
-    }
-    beside_lines_.emplace(base_, std::move(beside));
-  }
+  for (std::size_t o = 0; o < lines_.size(); ++o)
+    if (lines_[o])
+      noise.outputs[o].left_out = {spans_[o], lines_[o]->by_user ? LineSpan::Part::all : LineSpan::Part::wandering};
   judge_.emplace(base_, std::move(noise));
   double n = 0, squares = 0, fourth = 0;
   for (const int r : recordings_)
@@ -178,11 +149,9 @@ void Evidence::settle(const Prediction& best) {
       squares += w * w;
       fourth += w * w * w * w;
     }
-  witnesses_ = n;
   per_chi2_ = 1;
   if (known_ || !(squares > 0)) return;
-  witnesses_ = std::clamp(3 * squares * squares / fourth, 3.0, n);
-  per_chi2_ = witnesses_ / squares;
+  per_chi2_ = std::clamp(3 * squares * squares / fourth, 3.0, n) / squares;
 }
 
 std::vector<Evidence::Slice> Evidence::slices(int recording) const {
@@ -230,7 +199,6 @@ ModelError Evidence::error(const Prediction& prediction) const {
       one.step = step;
       one.chi2 = dot(w.data() + begin, w.data() + begin, size);
       one.evidence = one.chi2 * per_chi2_;
-      one.plain = one.rms * one.rms * static_cast<double>(one.rows) / noisy_variance(o);
       (is_train ? e.chi2_train : e.chi2_validate) += one.chi2;
       (is_train ? e.evidence_train : e.evidence_validate) += one.evidence;
       (is_train ? e.n_train : e.n_validate) += static_cast<double>(size);
@@ -238,8 +206,6 @@ ModelError Evidence::error(const Prediction& prediction) const {
       e.recordings.push_back(std::move(one));
     }
   }
-  e.effective_sample_size = witnesses_ > 0 ? witnesses_ : e.n();
-  e.noise_known = known_;
   const bool one_sum = one_dimension(base_);
   e.nrmse_train = train.nrmse(one_sum);
   e.nrmse_validate = validate.nrmse(one_sum);
@@ -256,7 +222,6 @@ OverFloor Evidence::over_usual_floor(const Prediction& prediction) const {
     usual.outputs[o].one_over_f = std::min(usual.outputs[o].one_over_f, before_.outputs[o].one_over_f);
   const Judge judge(base_, usual, Whitener::Order::by_frequency);
   std::vector<double> chi2(base_.outputs().size(), 0.0), n(base_.outputs().size(), 0.0);
-  std::vector<Octaves> octaves(base_.outputs().size());
   OverFloor over;
   for (const int r : recordings_) {
     if (prediction.y[static_cast<std::size_t>(r)].empty()) continue;
@@ -265,7 +230,6 @@ OverFloor Evidence::over_usual_floor(const Prediction& prediction) const {
       const auto o = static_cast<std::size_t>(slice.output);
       const auto rows = static_cast<double>(slice.size);
       const double here = dot(w.data() + slice.begin, w.data() + slice.begin, slice.size);
-      octaves[o].add(std::span(w).subspan(slice.begin, slice.size), slice.zero_is_free ? 1 : 0);
       // An effect may show in one kind of recording alone, where chance is larger, for the rows are fewer.
       const double chance = deviations_of_chance * std::sqrt(2 / rows);
       over.one = std::max(over.one, here / rows - chance);
@@ -276,7 +240,6 @@ OverFloor Evidence::over_usual_floor(const Prediction& prediction) const {
   }
   for (std::size_t o = 0; o < chi2.size(); ++o)
     if (n[o] > 0) over.all = std::max(over.all, chi2[o] / n[o]);
-  for (const auto& o : octaves) over.octave = std::max(over.octave, o.furthest());
   return over;
 }
 
@@ -306,19 +269,9 @@ Prediction Evidence::calibrated(Prediction prediction, int output) const {
   return prediction;
 }
 
-std::vector<double> Evidence::chi2_beside_lines(const Prediction& prediction) const {
-  const Judge& judge = beside_lines_ ? *beside_lines_ : *judge_;
-  std::vector<double> list;
-  for (const int r : recordings_) {
-    if (prediction.y[static_cast<std::size_t>(r)].empty()) continue;
-    const auto w = judge.residual(base_, prediction, r);
-    for (const auto& slice : slices(r)) list.push_back(dot(w.data() + slice.begin, w.data() + slice.begin, slice.size));
-  }
-  return list;
-}
-
 std::vector<double> Evidence::wandering(const Prediction& prediction) const {
-  if (!beside_lines_) return std::vector<double>(base_.outputs().size(), 0.0);
+  if (std::none_of(lines_.begin(), lines_.end(), [](const auto& line) { return line.has_value(); }))
+    return std::vector<double>(base_.outputs().size(), 0.0);
   NoiseModel all = noise();
   for (auto& o : all.outputs) o.left_out = {};
   const Judge with_it(base_, all);
@@ -337,58 +290,6 @@ std::vector<double> Evidence::wandering(const Prediction& prediction) const {
   for (std::size_t o = 0; o < squares.size(); ++o)
     rms.push_back(n[o] > 0 ? all.outputs[o].white * std::sqrt(std::max(0.0, squares[o] / n[o])) : 0);
   return rms;
-}
-
-double Evidence::plain_over_floor(const ModelError& error) const {
-  if (!known_) return 1;
-  std::map<std::string, std::pair<double, double>> of_output;  // squares, rows
-  for (const auto& r : error.recordings) {
-    if (r.role != Role::validate) continue;
-    of_output[r.output].first += r.plain;
-    of_output[r.output].second += static_cast<double>(r.rows);
-  }
-  double most = 0;
-  for (const auto& [output, sums] : of_output) most = std::max(most, sums.first / std::max(sums.second, 1.0));
-  return most;
-}
-
-double Evidence::noisy_variance(int output) const {
-  constexpr double much = 0.5;  // rms of 1/f over white noise: few sensors have more
-  const double white = noise().outputs[static_cast<std::size_t>(output)].white;
-  return white * white * (1 + much * much);
-}
-
-std::vector<double> Evidence::pieces(const Prediction& prediction) const {
-  constexpr std::size_t count = 8;
-  std::vector<double> list;
-  const Judge judge(base_, noise(), Whitener::Order::by_frequency);
-  for (const int r : recordings_) {
-    const auto w = judge.residual(base_, prediction, r);
-    for (const auto& slice : slices(r)) {
-      // Back from whitened cosines to whitened rows; a coefficient that is free per recording is zero.
-      const std::size_t rows = slice.size + (slice.zero_is_free ? 1 : 0);
-      std::vector<double> row(rows, 0.0);
-      std::copy_n(w.begin() + static_cast<std::ptrdiff_t>(slice.begin), slice.size,
-                  row.begin() + (slice.zero_is_free ? 1 : 0));
-      inverse_cosine_transform(row);
-      for (std::size_t k = 0; k < count; ++k) {
-        double chi2 = 0;
-        for (std::size_t i = k * rows / count; i < (k + 1) * rows / count; ++i) chi2 += row[i] * row[i];
-        list.push_back(chi2);
-      }
-    }
-  }
-  return list;
-}
-
-double vuong(const std::vector<double>& a, const std::vector<double>& b) {
-  const double n = static_cast<double>(a.size());
-  if (a.size() < 3) return 0;
-  double mean = 0;
-  for (std::size_t k = 0; k < a.size(); ++k) mean += (a[k] - b[k]) / n;
-  double variance = 0;
-  for (std::size_t k = 0; k < a.size(); ++k) variance += (a[k] - b[k] - mean) * (a[k] - b[k] - mean) / (n - 1);
-  return variance > 0 ? mean / std::sqrt(variance / n) : 0;
 }
 
 void Evidence::add_test(ModelError& error, const Prediction& prediction) const {

@@ -32,11 +32,7 @@ struct RecordingError {
   double nrmse = 0;      ///< rms over that
   double chi2 = 0;       ///< sum of squared whitened residuals, in units of the noise
   double evidence = 0;   ///< what falls are counted in: chi2 where the noise is known (see Evidence)
-  /// Sum of squares, not whitened, over the variance of a sensor with much 1/f noise: one per row or less if only noise
-  /// is left.
-  double plain = 0;
   double excess() const { return chi2 - static_cast<double>(rows); }
-  double plain_excess() const { return plain - static_cast<double>(rows); }
 };
 
 /// One model against all recordings. `rms` over several outputs is only given where they are of one dimension (else 0);
@@ -56,8 +52,6 @@ struct ModelError {
   double chi2() const { return chi2_train + chi2_validate; }
   double evidence() const { return evidence_train + evidence_validate; }
   double n() const { return n_train + n_validate; }
-  double effective_sample_size = 0;  ///< independent ones among them (Evidence)
-  bool noise_known = true;  ///< stated by the data set; else what the best model leaves is all that is known of it
   double excess_validate() const { return chi2_validate - n_validate; }
   double over_floor() const { return n_validate > 0 ? chi2_validate / n_validate : 0; }  ///< 1 = noise
 };
@@ -78,9 +72,6 @@ bool of_one_dimension(const std::vector<RecordingError>& recordings);
 struct OverFloor {
   double all = 0;  ///< on validation recordings together
   double one = 0;  ///< in one recording, less what chance makes there: an effect may show in one kind alone
-  /// Of all recordings together the octave (of half periods in a recording) that is furthest above 1, in standard
-  /// deviations of chance: what is slow is in few coefficients, beside which all the others are noise.
-  double octave = 0;
 };
 
 /// The measure of a discovery. Residuals are whitened by one fixed filter (fit/signals/whiten.h). Then
@@ -108,31 +99,20 @@ class Evidence {
     return judge_->residual(base_, prediction, recording);
   }
 
-  /// chi2 of consecutive pieces in time, eight per recording and output, in the order of recordings(). Two models that
-  /// are both not right are compared piece by piece (see tie_by_pieces).
-  std::vector<double> pieces(const Prediction& prediction) const;
-
   /// With as much 1/f noise as sensors usually have, or less where the residual says so: slow structure passes for
   /// noise until somebody tries an effect on it. Of several outputs the largest.
   OverFloor over_usual_floor(const Prediction& prediction) const;
   /// What a sensor would read with the best gain and zero of one output, over all judged recordings.
   Prediction calibrated(Prediction prediction, int output) const;
-  /// chi2 in each of ModelError::recordings, without what known lines may be: no drive looks like one.
-  std::vector<double> chi2_beside_lines(const Prediction& prediction) const;
   /// rms on validation of what known lines leave by wandering, whitened rows times the white noise [SI of the output],
   /// per output; 0 where none is known.
   std::vector<double> wandering(const Prediction& prediction) const;
-  /// The plain mean square on validation over that of a sensor with much 1/f noise (RecordingError::plain), of several
-  /// outputs the largest; 1 where nobody states the noise. A wrong zero is one coefficient in each recording, which the
-  /// thousands of others hide in chi2.
-  double plain_over_floor(const ModelError& error) const;
 
   const Judge& judge() const { return *judge_; }
   const NoiseModel& noise() const { return judge_->noise(); }
   const DataModel& model() const { return base_; }
   const std::vector<int>& recordings() const { return recordings_; }  ///< train and validate
   bool noise_known() const { return known_; }
-  double effective_sample_size() const { return witnesses_; }  ///< N, or N_eff: what ln N in a score means
   /// Adds how far the model is from the test recordings, which this prediction holds; nothing if there are none.
   void add_test(ModelError& error, const Prediction& prediction) const;
 
@@ -150,23 +130,15 @@ class Evidence {
   /// What a line of this output may be in each recording; `without`: see known_lines, nullptr where it is not known.
   std::shared_ptr<const std::vector<LineSpan>> spans_of(const WanderingLine& line, int output,
                                                         const Prediction* without) const;
-  /// Of white noise and much 1/f noise [SI squared].
-  double noisy_variance(int output) const;
 
   const DataModel& base_;
   NoiseModel before_;
   std::optional<Judge> judge_;
-  std::optional<Judge> beside_lines_;  ///< only where lines are known
   std::vector<int> recordings_;
   bool known_ = true;
   std::vector<std::optional<WanderingLine>> lines_;
   std::vector<std::shared_ptr<const std::vector<LineSpan>>> spans_;  ///< of these, by the recording
   double per_chi2_ = 1;                                              ///< evidence per unit of chi2
-  double witnesses_ = 0;                                             ///< independent ones
 };
-
-/// Vuong's test of two models that need not be right (Econometrica 57 (1989) 307): how many standard deviations the
-/// mean difference of chi2 over pieces lies from zero. Below 2 in size, who is ahead depends on where one looks.
-double vuong(const std::vector<double>& a, const std::vector<double>& b);
 
 }  // namespace hysteron

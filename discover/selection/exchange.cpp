@@ -174,8 +174,8 @@ bool Selection::in_two() {
   return false;
 }
 
-/// A look-alike, the same effect elsewhere, or, where more than noise is left, by another law, that explains more in
-/// the place of a term.
+/// In the place of a term a look-alike, what its law could hold besides its own, or, where more than noise is left,
+/// another of its laws, that explains more; what asks for less to be believed where it explains as much.
 bool Selection::exchange() {
   const auto terms = terms_of(best_.model);
   const auto take_better = [&](const Effect& standing, const std::vector<Addition>& rivals) {

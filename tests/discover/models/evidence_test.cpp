@@ -30,26 +30,10 @@ class EvidenceOf : public ::testing::Test {
     }
     return {compile(plain_gain(), registry_), std::make_shared<const DataSet>(data_set(std::move(list), white, 0))};
   }
-  static OverFloor over(DataModel model) {
-    const Evidence evidence(model);
-    return evidence.over_usual_floor(model.predict({}, evidence.recordings()));
-  }
 
  private:
   Registry registry_ = all_blocks();
 };
-
-TEST_F(EvidenceOf, WhatIsInFewCosinesStandsOutInItsOctave) {
-  // A slow sine of 0.25 of the noise: 0.031 of chi2 in each of 12000 rows, 375 in all, in the octave
-  // of 32 to 63 half periods of 40 s, where there are 96 coefficients: 375/sqrt(192) = 27 deviations, with four of
-  // chance.
-  const auto slow = [](double t, double) { return 0.25 * white * std::sin(2 * std::numbers::pi * 0.55 * t); };
-  const OverFloor with = over(measured(slow)), without = over(measured([](double, double) { return 0.0; }));
-  EXPECT_NEAR(with.octave, 27, 4);
-  EXPECT_LT(with.all, 1.12);
-  // The highest of twelve octaves of chance, the first of three coefficients only.
-  EXPECT_LT(without.octave, 4);
-}
 
 TEST(EvidenceOfSeveralRecordings, NrmseIsAboutTheMeanOfAllOfThemAsInCompare) {
   // 10 mm off everywhere; one recording about half a meter, one about four.
