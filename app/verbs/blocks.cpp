@@ -168,8 +168,8 @@ std::string one_text(const Declaration& d) {
   text += variations_text(d);
   if (d.is_elementwise)
     text += "\n" + wrapped(
-                       "On vectors it works element by element, with the same parameters for all; single numbers "
-                       "go to every element.");
+                       "Works element by element on vectors, with the same parameters for all elements; a scalar input "
+                       "applies to every element.");
   if (!d.remarks.empty()) {
     text += "\nremarks\n";
     for (const auto& remark : d.remarks) text += wrapped(remark, 2);
@@ -180,8 +180,8 @@ std::string one_text(const Declaration& d) {
   if (std::any_of(d.inputs.begin(), d.inputs.end(), variable) ||
       std::any_of(d.outputs.begin(), d.outputs.end(), variable))
     text += "\n" + wrapped(
-                       "$a, $b stand for units that come from the wires and from the units written at the "
-                       "parameters; $a[i] for that of each element.");
+                       "$a, $b stand for units that follow from the wires and from the units of the parameters; $a[i] "
+                       "for the unit of each element.");
   return text;
 }
 

@@ -9,7 +9,7 @@
 namespace hysteron::blocks {
 
 void PrandtlIshlinskiiInverse::describe(Declaration& d) {
-  d.name("prandtl_ishlinskii_inverse", "drive that makes a Prandtl-Ishlinskii actuator follow the wanted displacement")
+  d.name("prandtl_ishlinskii_inverse", "inverse of Prandtl-Ishlinskii: command for a desired displacement")
       .in_group("compensators")
       .elementwise()
       .at("command");
@@ -19,16 +19,16 @@ void PrandtlIshlinskiiInverse::describe(Declaration& d) {
        "1/m_j - 1/m_(j-1), m_j = c_0 + ... + c_j")
       .from("thesis Eqs. 2.8, 2.13, 2.14 as corrected; Kuhnen, Eur. J. Control 9 (2003) 407-418");
   d.remark("Takes the parameters of the block prandtl_ishlinskii that it compensates, its memory included.");
-  d.remark("Exact, minor loops too, as long as both have the same memory: u is then what drove the actuator.");
+  d.remark("The inverse is exact, minor loops included, as long as both blocks have the same memory.");
   d.remembers("u", "the output w_i of each operator of the actuator");
-  d.input("y", "$b", "wanted displacement");
+  d.input("y", "$b", "desired displacement");
   d.output("u", "$a", "command");
-  d.list("thresholds", "$a", "threshold of each operator of the actuator; the first is 0, the linear part")
+  d.list("thresholds", "$a", "threshold of each play operator of the actuator; the first is 0 (linear part)")
       .increasing()
       .not_negative()
       .difference();
-  d.list("weights", "$b/$a", "weight of each operator of the actuator").as_long_as("thresholds");
-  d.text("sides", {"one", "two"}, "dead zone below the input only, or on both sides");
+  d.list("weights", "$b/$a", "weight of each play operator of the actuator").as_long_as("thresholds");
+  d.text("sides", {"one", "two"}, "one: one-sided play operators (dead zone below the input); two: symmetric ones");
   d.parameter("before", "$a", "an input that the actuator has visited before the start").optional("0");
 }
 
@@ -44,12 +44,13 @@ std::string PrandtlIshlinskiiInverse::check(const View<double>& v) {
   const auto r = v.list(thresholds);
   if (r[0] != 0)
     return fmt::format(
-        "the first threshold is {{{} in thresholds}}, so small moves have no inverse; begin with 0, the linear part",
+        "the first threshold is {{{} in thresholds}}, so small motions have no inverse; begin with 0, the "
+        "linear part",
         r[0]);
   const std::size_t rising = prandtl_ishlinskii::rising_slopes(v.list(weights));
   if (rising < r.size())
     return fmt::format(
-        "the weights up to number {} add up to a slope that is not positive, so the actuator has no inverse; give a "
+        "the first {} weights add up to a slope that is not positive, so the actuator has no inverse; give a "
         "larger first weight",
         rising + 1);
   return "";

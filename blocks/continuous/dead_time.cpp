@@ -3,14 +3,17 @@
 namespace hysteron::blocks {
 
 void DeadTime::describe(Declaration& d) {
-  d.name("dead_time", "its input, delayed without change of shape").in_group("continuous").elementwise().at("command");
-  d.law("y(t) = u(t - delay); before the start the input is taken to have been at rest").from("definition");
+  d.name("dead_time", "dead time: delays its input by a constant time")
+      .in_group("continuous")
+      .elementwise()
+      .at("command");
+  d.law("y(t) = u(t - delay); before the start the input is taken as constant").from("definition");
   d.remark(
-      "A delay shorter than the solver's step is continued from the last accepted point, straight on: first order "
-      "accurate.");
+      "Where the delay is shorter than the solver's step, the input is extrapolated linearly from the last "
+      "accepted step (first-order accurate).");
   d.input("u", "$a", "the signal");
-  d.output("y", "$a", "the signal, later");
-  d.parameter("delay", "s", "how much later").not_negative();
+  d.output("y", "$a", "the delayed signal");
+  d.parameter("delay", "s", "dead time").not_negative();
 }
 
 Sizes DeadTime::sizes(const Shape&) {

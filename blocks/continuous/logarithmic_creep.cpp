@@ -5,7 +5,7 @@
 namespace hysteron::blocks {
 
 void LogarithmicCreep::describe(Declaration& d) {
-  d.name("logarithmic_creep", "slow continuation of a move by the logarithm of time")
+  d.name("logarithmic_creep", "creep that grows with the logarithm of time")
       .in_group("continuous")
       .elementwise()
       .linear()
@@ -16,18 +16,18 @@ void LogarithmicCreep::describe(Declaration& d) {
       .from(
           "Jung, Gweon, Rev. Sci. Instrum. 71 (2000) 1896 (logarithm); Croft, Shed, Devasia, J. Dyn. Sys. Meas. "
           "Control 123 (2001) 35-43 (chain)");
-  d.remark("Piezoceramics: 0.01 to 0.02 per decade.");
+  d.remark("Typical for piezoceramics: per_decade 0.01 to 0.02.");
   d.remark(
-      "Two elements per decade, the first one at a third of first_time, follow the logarithm to a thousandth of what a "
-      "decade adds until a hundredth of the last time, to a fortieth until a tenth of it.");
+      "With two time constants per decade, the first at first_time/3, the error is 0.1 % of per_decade up "
+      "to 1/100 of the largest time constant, and 2.5 % up to 1/10 of it.");
   d.input("u", "$a", "the signal without creep");
   d.output("y", "$a", "the signal with creep");
   d.state("x", "$a", "relaxed signal of each element");
-  d.parameter("per_decade", "", "share of the move that each decade of time adds").linear().not_negative();
-  d.parameter("first_time", "s", "time after a move at which creep sets in").positive();
-  d.list(
-       "times", "s",
-       "time constants of the elements, increasing: two per decade, from below first_time to ten times the longest run")
+  d.parameter("per_decade", "", "creep per decade of time, relative to the step").linear().not_negative();
+  d.parameter("first_time", "s", "time after a step at which creep begins").positive();
+  d.list("times", "s",
+         "time constants of the elements, increasing: two per decade, from below first_time to ten times the "
+         "longest run time")
       .positive();
 }
 
@@ -42,7 +42,7 @@ std::string LogarithmicCreep::check(const View<double>& v) {
   const auto tau = v.list(times);
   for (std::size_t k = 1; k < tau.size(); ++k)
     if (!(tau[k] > tau[k - 1]))
-      return fmt::format("\"times\" must increase, but {:.6g} s stands behind {:.6g} s; sort them", tau[k], tau[k - 1]);
+      return fmt::format("\"times\" must increase, but {:.6g} s follows {:.6g} s; sort them", tau[k], tau[k - 1]);
   return "";
 }
 

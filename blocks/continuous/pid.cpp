@@ -7,40 +7,48 @@
 namespace hysteron::blocks {
 
 void describe_pid_ports(Declaration& d, bool tracks) {
-  d.input("reference", "$a", "where it should be; the error, where measured is a constant 0");
-  d.input("measured", "$a", "where it is");
-  if (tracks) d.input("tracked", "$b", "what the actuator really does, or what commands it while this one does not");
+  d.input("reference", "$a", "reference (setpoint); or the control error, if measured is a constant 0");
+  d.input("measured", "$a", "measured value");
+  if (tracks)
+    d.input("tracked", "$b", "actual output of the actuator, or the command of the controller that is active instead");
   d.output("y", "$b", "command");
 }
 
 void describe_pid(Declaration& d) {
   d.controller();
-  d.text("form", {"parallel", "standard", "series"}, "what the gains mean");
-  d.parameter("kp", "$b/$a", "proportional gain; of standard and series that of all, e.g. \"1.2 V/um\"");
+  d.text("form", {"parallel", "standard", "series"}, "form of the control law, which sets the meaning of the gains");
+  d.parameter("kp", "$b/$a",
+              "proportional gain, e.g. \"1.2 V/um\"; in standard and series form it multiplies all parts");
   d.parameter("ki", "$b/$a/s", "parallel: integral gain, e.g. \"7009 V/(um s)\"").optional("0");
   d.parameter("kd", "$b*s/$a", "parallel: derivative gain").optional("0");
-  d.parameter("integral_time", "s", "standard and series: of the integral; 0 = none").optional("0 s").not_negative();
-  d.parameter("derivative_time", "s", "standard and series: of the derivative; 0 = none")
+  d.parameter("integral_time", "s", "standard and series: integral time; 0 = no integral part")
       .optional("0 s")
       .not_negative();
-  d.parameter("filter", "s", "time constant of the derivative's filter; 0 = a tenth of kd/kp or derivative_time")
+  d.parameter("derivative_time", "s", "standard and series: derivative time; 0 = no derivative part")
+      .optional("0 s")
+      .not_negative();
+  d.parameter("filter", "s", "time constant of the derivative filter; 0 = a tenth of kd/kp or of derivative_time")
       .optional("0 s")
       .not_negative();
   d.text("derivative_on", {"measured", "error"},
-         "what the derivative is one of; a jump of the reference is no kick of the first");
-  d.parameter("setpoint_weight", "", "of the reference in the proportional part").optional("1");
-  d.parameter("lower", "$b", "smallest command").optional("-inf");
-  d.parameter("upper", "$b", "largest command").optional("inf");
-  d.parameter("rate", "$b/s", "largest rate of the command; 0 = no limit").optional("0").not_negative().difference();
+         "signal that is differentiated; with \"measured\" a step of the reference gives no derivative kick");
+  d.parameter("setpoint_weight", "", "weight of the reference in the proportional part").optional("1");
+  d.parameter("lower", "$b", "lower limit of the command").optional("-inf");
+  d.parameter("upper", "$b", "upper limit of the command").optional("inf");
+  d.parameter("rate", "$b/s", "largest rate of change of the command; 0 = no limit")
+      .optional("0")
+      .not_negative()
+      .difference();
 }
 
 void describe_windup(Declaration& d, bool tracks) {
   d.text("anti_windup", {"back_calculation", "clamping", "none"},
-         tracks ? "what a command that is not followed does to the integral" : "what a limit does to the integral");
-  d.parameter("tracking_time", "s", "back_calculation: time in which the integral follows; 0 = that of the integral")
+         tracks ? "how the integral reacts while the actuator does not follow the command"
+                : "anti-windup method: how the integral reacts while a limit is active");
+  d.parameter("tracking_time", "s", "back_calculation: tracking time constant; 0 = the integral time")
       .optional("0 s")
       .not_negative();
-  d.parameter("initial", "$b", "integral part at the start").optional("0").difference();
+  d.parameter("initial", "$b", "initial value of the integral part").optional("0").difference();
 }
 
 std::string check_pid(const PidNumbers& p, pid::AntiWindup windup, double tracking_time) {
@@ -53,42 +61,46 @@ std::string check_pid(const PidNumbers& p, pid::AntiWindup windup, double tracki
            "\"parallel\"";
   if (!(p.lower < p.upper)) return "lower, {lower}, is not below upper, {upper}; exchange them";
   if (p.kd != 0 && p.kp == 0 && !(p.filter > 0))
-    return "without kp nothing says how fast the derivative's filter is; give \"filter\", e.g. \"1 ms\"";
+    return "without kp there is no default for the derivative filter; give \"filter\", e.g. \"1 ms\"";
   const bool is_limited = !std::isinf(p.lower) || !std::isinf(p.upper) || p.rate > 0;
   if (windup == pid::AntiWindup::back_calculation && is_limited && p.ki != 0 && p.kp == 0 && !(tracking_time > 0))
-    return "without kp nothing says how fast the integral follows the limited command; give \"tracking_time\", e.g. "
-           "\"10 ms\"";
+    return "without kp there is no default for the tracking time; give \"tracking_time\", e.g. \"10 ms\"";
   return "";
 }
 
 template <bool tracks>
 void Pid<tracks>::describe(Declaration& d) {
   if (tracks)
-    d.name("pid_tracking", "PID controller whose integral follows what the actuator really does, continuous");
+    d.name("pid_tracking", "PID controller with anti-windup from the actuator output");
   else
     d.name("pid", "PID controller with limits and anti-windup, continuous");
   d.in_group("continuous").elementwise();
   d.law(
-       "y = sat(kp (setpoint_weight r - m) + I + kd d), dI/dt = ki (r - m) + windup, d = s/(filter s + 1) of -m or r - "
-       "m; standard: ki = kp/integral_time, kd = kp derivative_time; series: P and I see r - m + derivative_time d; "
-       "back_calculation: windup = (y - what y would be without limits)/tracking_time; clamping: no integral that pushes "
-       "further beyond a limit")
+       "y = sat(kp (setpoint_weight r - m) + I + kd d), dI/dt = ki (r - m) + windup, d = s/(filter s + 1) "
+       "of -m or r - m; standard: ki = kp/integral_time, kd = kp derivative_time; series: P and I act on r "
+       "- m + derivative_time d; back_calculation: windup = (y - y without limits)/tracking_time; clamping: "
+       "dI/dt = 0 while it would drive y further beyond a limit")
       .from("Astrom, Hagglund, Advanced PID Control (2006), chapter 3");
-  d.remark("An error that is there already is \"reference\", with a constant 0 as \"measured\".");
   d.remark(
-      "\"output_rate\": \"limited\" makes the command a state that follows within follow_time, at most with rate.");
+      "If the control error is already available, wire it to \"reference\" and a \"constant\" 0 to "
+      "\"measured\".");
   d.remark(
-      tracks
-          ? "With back_calculation I follows tracked, and not its own limits: while another controller commands, wire "
-            "that one's command to it, and the change between both is bumpless."
-          : "The integral follows its own limits; limits of an actuator behind it: \"pid_tracking\".");
-  d.remark("At a microcontroller's instants: \"discrete_pid\".");
+      "\"output_rate\": \"limited\" makes the command a state that follows the control law with the time "
+      "constant follow_time, no faster than \"rate\".");
+  d.remark(tracks
+               ? "With back_calculation the integral tracks the input \"tracked\" in place of the block's own limits. "
+                 "For bumpless transfer wire the command of the active controller to it."
+               : "Anti-windup uses the limits of this block only; for limits of an actuator after it use "
+                 "\"pid_tracking\".");
+  d.remark("For a sampled controller use \"discrete_pid\".");
   describe_pid_ports(d, tracks);
   d.state("integral", "$b", "integral part");
-  d.state("filtered", "$a", "what is differentiated, filtered");
+  d.state("filtered", "$a", "filtered input of the derivative part");
   describe_pid(d);
-  d.text("output_rate", {"free", "limited"}, "whether the command keeps to \"rate\"");
-  d.parameter("follow_time", "s", "limited: time constant with which the command follows").optional("1 ms").positive();
+  d.text("output_rate", {"free", "limited"}, "whether \"rate\" limits the command");
+  d.parameter("follow_time", "s", "limited: time constant with which the command follows the control law")
+      .optional("1 ms")
+      .positive();
   describe_windup(d, tracks);
 }
 

@@ -3,20 +3,24 @@
 namespace hysteron::blocks {
 
 void SlewLimit::describe(Declaration& d) {
-  d.name("slew_limit", "follows its input, but not faster than a rate upwards and another downwards")
+  d.name("slew_limit", "slew-rate limit, exact between the rows of a recording")
       .in_group("continuous")
       .elementwise()
       .at("command");
   d.law("dy/dt = max(-fall, min(rise, (u - y)/time))").from("current of a capacitor, I = C dU/dt");
-  d.remark("Exact for an input that moves in straight lines between the rows of a recording.");
-  d.remark("A rate beyond any of the input limits nothing: what stays is a lag of the time constant.");
+  d.remark("Exact for an input that is linear between the rows of a recording.");
+  d.remark(
+      "A limit above every rate of the input has no effect: a first-order lag with this time constant "
+      "remains.");
   d.input("u", "$a", "the signal");
-  d.output("y", "$a", "the follower");
-  d.state("y", "$a", "the follower");
-  d.parameter("rate", "$a/s", "largest rate both ways: current over capacitance").positive();
-  d.parameter("rise", "$a/s", "another one upwards; 0 = rate").optional("0").not_negative();
-  d.parameter("fall", "$a/s", "another one downwards; 0 = rate").optional("0").not_negative();
-  d.parameter("time", "s", "time constant with which a small gap closes").optional("1 ns").positive();
+  d.output("y", "$a", "the rate-limited signal");
+  d.state("y", "$a", "the rate-limited signal");
+  d.parameter("rate", "$a/s", "largest rate in both directions, e.g. current/capacitance").positive();
+  d.parameter("rise", "$a/s", "largest rising rate; 0 = as \"rate\"").optional("0").not_negative();
+  d.parameter("fall", "$a/s", "largest falling rate, as a positive number; 0 = as \"rate\"")
+      .optional("0")
+      .not_negative();
+  d.parameter("time", "s", "time constant of tracking while no limit is active").optional("1 ns").positive();
 }
 
 Sizes SlewLimit::sizes(const Shape&) {

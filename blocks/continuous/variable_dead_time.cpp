@@ -3,17 +3,18 @@
 namespace hysteron::blocks {
 
 void VariableDeadTime::describe(Declaration& d) {
-  d.name("variable_dead_time", "its input, delayed by a time that is a signal").in_group("continuous");
-  d.law("y(t) = u(t - delay(t)), 0 <= delay <= longest; before the start the input is taken to have been at rest")
+  d.name("variable_dead_time", "dead time that is set by a signal").in_group("continuous");
+  d.law("y(t) = u(t - delay(t)), 0 <= delay <= longest; before the start the input is taken as constant")
       .from("definition");
-  d.remark("What flows through a pipe at a speed that changes: delay = length/speed, as of now.");
+  d.remark("For transport through a pipe at a varying speed: delay = length/speed, with the present speed.");
   d.remark(
-      "A delay shorter than the solver's step is continued from the last accepted point, straight on: first order "
-      "accurate; \"max_step\" of the solver may be set to the shortest delay.");
+      "Where the delay is shorter than the solver's step, the input is extrapolated linearly from the last "
+      "accepted step (first-order accurate). To avoid this set \"max_step\" of the solver to the shortest "
+      "delay.");
   d.input("u", "$a", "the signal");
-  d.input("delay", "s", "how much later; outside of 0 .. longest the nearer of the two");
-  d.output("y", "$a", "the signal, later");
-  d.parameter("longest", "s", "longest delay: so much of the past is kept").positive();
+  d.input("delay", "s", "dead time; limited to 0 .. longest");
+  d.output("y", "$a", "the delayed signal");
+  d.parameter("longest", "s", "longest delay; sets how much of the past is stored").positive();
 }
 
 Sizes VariableDeadTime::sizes(const Shape&) {

@@ -5,27 +5,28 @@
 namespace hysteron::blocks {
 
 void BatteryCell::describe(Declaration& d) {
-  d.name("battery_cell", "cell of a battery: open-circuit curve, resistance and RC pairs").in_group("electrical");
+  d.name("battery_cell", "battery cell: open-circuit voltage, resistance and RC pairs").in_group("electrical");
   d.law(
        "d charge/dt = -current/capacity, dz_k/dt = (current - z_k)/times[k], voltage = open_circuit(charge) - resistance "
        "current - sum resistances[k] z_k")
       .from("Plett, Battery Management Systems I (2015), chapter 2");
   d.remark(
-      "A current out of the cell is positive. The curve is straight between its points and beyond its ends, where a real "
-      "cell is destroyed: look at \"charge\".");
+      "A discharge current is positive. The open-circuit curve is linear between its points and "
+      "extrapolated beyond its ends, where a real cell would be damaged: watch the output \"charge\".");
   d.remark(
-      "Capacities are charges: 2.5 A for an hour is \"9000 C\". A pair has the capacitance times[k]/resistances[k].");
-  d.input("current", "A", "current out of the cell");
+      "capacity is a charge in coulomb: 2.5 Ah is \"9000 C\". An RC pair has the capacitance "
+      "times[k]/resistances[k].");
+  d.input("current", "A", "current out of the cell (positive while it discharges)");
   d.output("voltage", "V", "voltage at the terminals");
   d.output("charge", "", "state of charge, 1 = full");
-  d.state("x", "", "state of charge, then the current through each resistance");
-  d.parameter("capacity", "C", "charge from full to empty").positive();
-  d.parameter("resistance", "ohm", "what acts at once").linear().not_negative();
-  d.list("charges", "", "points of the open-circuit curve, increasing").increasing();
-  d.list("open_circuit", "V", "voltage at these points").linear().as_long_as("charges");
-  d.list("resistances", "ohm", "of the RC pairs").optional("").linear().not_negative();
-  d.list("times", "s", "their time constants").optional("").positive().as_long_as("resistances");
-  d.parameter("initial", "", "state of charge at the start").optional("1");
+  d.state("x", "", "state of charge, then the current through the resistance of each RC pair");
+  d.parameter("capacity", "C", "capacity: charge from full to empty, 1 Ah = 3600 C").positive();
+  d.parameter("resistance", "ohm", "series (ohmic) resistance").linear().not_negative();
+  d.list("charges", "", "state of charge at the points of the open-circuit curve, increasing").increasing();
+  d.list("open_circuit", "V", "open-circuit voltage at these points").linear().as_long_as("charges");
+  d.list("resistances", "ohm", "resistances of the RC pairs").optional("").linear().not_negative();
+  d.list("times", "s", "time constants of the RC pairs").optional("").positive().as_long_as("resistances");
+  d.parameter("initial", "", "initial state of charge").optional("1");
 }
 
 Sizes BatteryCell::sizes(const Shape& shape) {

@@ -52,22 +52,25 @@ std::vector<std::string> ports_of(const std::vector<ForeignVariable>& list) {
 }  // namespace
 
 void Fmu::describe(Declaration& d) {
-  d.name("fmu", "a co-simulation unit (FMU) of another simulator, stepped from instant to instant").in_group("sampled");
+  d.name("fmu", "FMU of another tool (FMI co-simulation), stepped with a fixed period").in_group("sampled");
   d.law(
-       "at each instant: outputs as the FMU gives them; then it goes one period further with the inputs of this instant")
+       "at each instant the outputs are read from the FMU; then it advances by one period with the inputs "
+       "of this instant")
       .from("Functional Mock-up Interface 2.0.4 and 3.0.1, fmi-standard.org");
   d.named_by("interface");
   d.remark(
-      "Its inputs, outputs and parameters are those of the file; letters and digits of their names stay, all else becomes "
-      "\"_\". Parameters are given beside the file: \"mass\": \"2 kg\". What is not given is as in the file.");
+      "Inputs, outputs and parameters are those of the FMU; in their names, characters other than letters "
+      "and digits become \"_\". Parameters are given next to the file: \"mass\": \"2 kg\". A parameter "
+      "that is not given has the value from the FMU.");
   d.remark(
-      "An FMU is native code of whoever made it, with all that you may do. It is run only where you say that you trust it: "
-      "--allow drive.fmu. Without, diagrams with it are read, checked and drawn.");
+      "An FMU contains native code that runs with your permissions. It runs only if you state that you "
+      "trust it: --allow drive.fmu. Without this option its diagrams can be read, checked and drawn, but "
+      "not run.");
   d.remark(
-      "What comes in at an instant is seen at the outputs one period later. Slopes (fits, linearize) do not pass through "
-      "it (docs/fmi.md).");
-  d.inputs_any("in", "$in", "its inputs, by their names");
-  d.outputs_any("y", "$result", "its outputs, by their names");
+      "An input affects the outputs one period later. There are no derivatives of an FMU, so fits and "
+      "linearize do not work through it (docs/fmi.md).");
+  d.inputs_any("in", "$in", "inputs of the FMU, by name");
+  d.outputs_any("y", "$result", "outputs of the FMU, by name");
   d.text("file", {}, "the FMU, e.g. \"drive.fmu\"");
   d.text("interface", {}, "made from the file; not written").optional("");
   d.sampled();

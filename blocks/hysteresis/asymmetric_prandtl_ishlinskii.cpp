@@ -11,26 +11,28 @@ constexpr char asymmetric_prandtl_ishlinskii_source[] =
     "thesis Eq. 5.15 at one temperature; operators: Kuhnen, Eur. J. Control 9 (2003) 407-418";
 
 void asymmetric_prandtl_ishlinskii_parameters(Declaration& d) {
-  d.list("thresholds", "$a", "threshold of each operator; the first is 0, the linear part")
+  d.list("thresholds", "$a", "threshold of each play operator; the first is 0 (linear part)")
       .increasing()
       .not_negative()
       .difference();
-  d.list("weights", "$b/$a", "weight of each operator; the first also that of the saturating part")
+  d.list("weights", "$b/$a", "weight of each play operator; the first is also the weight of the saturating part")
       .as_long_as("thresholds");
-  d.parameter("saturation", "$a", "saturation P, in the unit of the input").not_negative().difference();
-  d.parameter("bend", "$a", "input over which the curve bends").positive().difference();
-  d.parameter("before", "$a", "an input that was visited before the start").optional("0");
+  d.parameter("saturation", "$a", "saturation value of the saturating part, in the unit of the input")
+      .not_negative()
+      .difference();
+  d.parameter("bend", "$a", "input scale over which the tanh saturates").positive().difference();
+  d.parameter("before", "$a", "input value visited before the start, which sets the initial memory").optional("0");
 }
 
 }  // namespace
 
 void AsymmetricPrandtlIshlinskii::describe(Declaration& d) {
-  d.name("asymmetric_prandtl_ishlinskii", "Prandtl-Ishlinskii hysteresis with a saturating part: asymmetric loops")
+  d.name("asymmetric_prandtl_ishlinskii", "asymmetric Prandtl-Ishlinskii hysteresis with a saturating part")
       .in_group("hysteresis")
       .at("core");
   d.law("y = weights[0] saturation tanh(u/bend) + sum weights[i] w_i, w_i = max(u - thresholds[i], min(u, w_i before))")
       .from(asymmetric_prandtl_ishlinskii_source);
-  d.remark("The block tapi at one temperature: saturation = p_s (1 - T/t_c)^beta, bend = a T.");
+  d.remark("This is the block tapi at one temperature: saturation = p_s (1 - T/t_c)^beta, bend = a T.");
   d.remembers("u", "the output w_i of each operator");
   d.input("u", "$a", "drive");
   d.output("y", "$b", "displacement");
@@ -48,19 +50,20 @@ std::string AsymmetricPrandtlIshlinskii::check_memory(const View<double>& v) {
 }
 
 void SampledAsymmetricInverse::describe(Declaration& d) {
-  d.name("sampled_asymmetric_inverse",
-         "drive that makes an asymmetric_prandtl_ishlinskii actuator follow the wanted displacement, sample by sample")
+  d.name("sampled_asymmetric_inverse", "sampled inverse of asymmetric_prandtl_ishlinskii")
       .in_group("sampled")
       .at("command");
   d.law("u_k solves weights[0] saturation tanh(u_k/bend) + sum weights[i] w_i(u_k) = y_k")
       .from(asymmetric_prandtl_ishlinskii_source);
   d.remark("Takes the parameters of the block that it compensates, its memory included.");
-  d.remark("The iteration of the thesis converges for saturation < bend only; solved (iterations 0) it always does.");
-  d.input("y", "$b", "wanted displacement");
+  d.remark(
+      "The fixed-point iteration of the thesis converges only for saturation < bend; the exact solution "
+      "(iterations 0) always converges.");
+  d.input("y", "$b", "desired displacement");
   d.output("u", "$a", "command");
   d.state("w", "$a", "operators of the actuator");
   asymmetric_prandtl_ishlinskii_parameters(d);
-  d.parameter("iterations", "", "0: solved to rounding; else so many steps of the iteration of thesis Fig. 5.8")
+  d.parameter("iterations", "", "0 = solved to machine precision; else the number of iterations of thesis Fig. 5.8")
       .optional("0")
       .not_negative();
   d.sampled();

@@ -12,15 +12,15 @@ namespace {
 constexpr char coupled_tapi_source[] = "thesis Eqs. 5.26 to 5.31; each branch as block tapi";
 
 void coupled_tapi_parameters(Declaration& d) {
-  d.list("thresholds", "$a", "threshold of each operator, the same for all branches; the first is 0, the linear part")
+  d.list("thresholds", "$a", "threshold of each play operator, the same for all branches; the first is 0 (linear part)")
       .increasing()
       .not_negative()
       .difference();
   d.matrix("weights", "$b/$a", "one row per branch (1 from 1, 1 from 2 ... 2 from 1 ...), one column per threshold");
   d.matrix("p_s", "$b", "saturation of each branch at 0 K, one row per output, one column per input").difference();
   d.parameter("t_c", "K", "Curie temperature, absolute").positive();
-  d.matrix("beta", "", "exponent of the fall of each saturation towards t_c").not_negative();
-  d.matrix("a", "$a/K", "bend per kelvin of each branch").positive();
+  d.matrix("beta", "", "exponent with which each saturation falls to 0 at t_c").not_negative();
+  d.matrix("a", "$a/K", "input scale of each branch per kelvin: the tanh saturates over an input of a T").positive();
 }
 
 Sizes axes_of(const Shape& shape) {
@@ -50,14 +50,14 @@ std::string check_first(double first) {
 }  // namespace
 
 void CoupledTapi::describe(Declaration& d) {
-  d.name("coupled_tapi", "several axes with TAPI hysteresis, each of which moves all outputs").in_group("hysteresis");
+  d.name("coupled_tapi", "coupled axes with TAPI hysteresis: each input moves all outputs").in_group("hysteresis");
   d.law(
        "y_j = sum_i [p_s_ji (1 - T/t_c)^beta_ji tanh(u_i/(a_ji T)) + sum_k weights_ji,k w_i,k], w_i,k = max(u_i - "
        "thresholds[k], min(u_i, w_i,k before))")
       .from(coupled_tapi_source);
   d.remark(
-      "Here p_s is in the unit of the output; in the block tapi, which multiplies it by its first weight, of the "
-      "input.");
+      "p_s is in the unit of the output here; in the block tapi, which multiplies it by the first weight, "
+      "it is in the unit of the input.");
   d.remark("Rows of p_s, beta and a are outputs, columns are inputs, as in a matrix_gain.");
   d.remembers("u", "the output w_i,k of each operator, axis by axis");
   d.input("u", "$a", "drive of each axis").vector();
@@ -82,21 +82,19 @@ std::string CoupledTapi::check_memory(const View<double>& v) {
 }
 
 void SampledCoupledTapiInverse::describe(Declaration& d) {
-  d.name("sampled_coupled_tapi_inverse", "drives that make coupled TAPI axes follow the wanted displacements")
-      .in_group("sampled");
+  d.name("sampled_coupled_tapi_inverse", "sampled inverse of coupled_tapi: commands of all axes").in_group("sampled");
   d.law("u_k solves y_j = sum_i y_j(u_i, T_k) of block coupled_tapi for all axes j").from(coupled_tapi_source);
   d.remark("Takes the parameters of the block coupled_tapi that it compensates.");
   d.remark(
-      "Axis after axis is solved with the newest of the others until nothing moves. It needs every output to hang on "
-      "its "
-      "own input more than on all others together.");
-  d.remark("axes \"single\" leaves the coupling out, as one compensator per axis would.");
-  d.input("y", "$b", "wanted displacement of each axis").vector();
+      "The axes are solved in turn (Gauss-Seidel) until converged. This requires diagonal dominance: each "
+      "output depends on its own input more than on all others together.");
+  d.remark("With axes \"single\" the coupling is neglected, as with one compensator per axis.");
+  d.input("y", "$b", "desired displacement of each axis").vector();
   d.input("temperature", "K", "temperature of the material");
   d.output("u", "$a", "command of each axis").vector();
   d.state("w", "$a", "operators of the axes");
   coupled_tapi_parameters(d);
-  d.text("axes", {"coupled", "single"}, "whether the branches between axes are taken away");
+  d.text("axes", {"coupled", "single"}, "whether the cross-coupling between axes is compensated");
   d.sampled();
 }
 

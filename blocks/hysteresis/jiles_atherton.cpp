@@ -20,22 +20,23 @@ template <class B>
 void jiles_atherton_parameters(BlockSpec<B>& spec) {
   using P = typename B::template Params<double>;
   spec.param(&P::p_s, "p_s", "$b", "saturation").positive().difference();
-  spec.param(&P::a, "a", "$a", "input over which the curve without pinning bends").positive().difference();
-  spec.param(&P::alpha, "alpha", "$a/$b", "input that the output itself adds");
-  spec.param(&P::k, "k", "$a", "pinning: half the width of the loop").positive().difference();
-  spec.param(&P::c, "c", "", "reversible share, below 1").not_negative().maximum = 1;
-  spec.text("anhysteretic", {"tanh", "langevin"}, "curve without pinning; published sets of magnets mean langevin");
+  spec.param(&P::a, "a", "$a", "input scale of the anhysteretic curve").positive().difference();
+  spec.param(&P::alpha, "alpha", "$a/$b", "mean-field coupling: effective input per polarisation");
+  spec.param(&P::k, "k", "$a", "pinning constant: about half the width of the loop").positive().difference();
+  spec.param(&P::c, "c", "", "reversible fraction, below 1").not_negative().maximum = 1;
+  spec.text("anhysteretic", {"tanh", "langevin"},
+            "anhysteretic curve; parameters published for magnetic materials use langevin");
 }
 
 template <class P>
 std::string law_check(const P& p) {
-  if (!(p.c < 1)) return "c = 1 leaves nothing to pin; give a share below 1";
+  if (!(p.c < 1)) return "with c = 1 there is no irreversible part; give a fraction below 1";
   const auto law = jiles_atherton_law(p);
   const double margin = jiles_atherton::reversible_margin(law);
   if (!(margin > 0))
     return fmt::format(
-        "1 - alpha c p_s/{} = {:.4g} is not positive: the reversible part would run away; give a smaller alpha or c, "
-        "or a larger a",
+        "1 - alpha c p_s/{} = {:.4g} is not positive: the reversible part would be unstable; give a smaller "
+        "alpha or c, or a larger a",
         law.curve == jiles_atherton::Curve::tanh ? "a" : "(3 a)", margin);
   return "";
 }
@@ -48,38 +49,40 @@ std::string inverse_check(const P& p) {
 
 template <class B>
 ParameterDeclaration& scale_parameter(BlockSpec<B>& spec) {
-  return spec.param(&B::template Params<double>::scale, "scale", "", "factor on the output").optional("1");
+  return spec.param(&B::template Params<double>::scale, "scale", "", "factor from the polarisation to the output")
+      .optional("1");
 }
 
 }  // namespace
 
 void JilesAtherton::describe(BlockSpec<JilesAtherton>& spec) {
-  spec.name("jiles_atherton", "Jiles-Atherton hysteresis, driven by the rate of its input")
+  spec.name("jiles_atherton", "Jiles-Atherton hysteresis")
       .in_group("hysteresis")
       .elementwise()
       .rate_independent()
       .at("core");
   spec.law(std::string("y = scale p, dp/dt = F(u, p, sign u') u', ") + slope_text).from(jiles_atherton_source);
-  spec.remark("The input must have a rate: noise needs a filter in between. A jump is followed as a fast ramp.");
-  spec.remark("The irreversible part is not cut off where it is negative: published piezo parameters hold so.");
+  spec.remark("The input must have a rate: noise needs a filter in between. A jump is treated as a fast ramp.");
+  spec.remark("A negative irreversible part is not set to zero: published piezo parameters assume this.");
   spec.remark(
-      "The law holds while alpha (A - p) d is below (1 - c) k, and alpha R below 1. A strong alpha with a small k ends "
-      "there, and the run with it; published sets of magnets then usually mean \"anhysteretic\": \"langevin\".");
+      "The law is valid while alpha (A - p) d < (1 - c) k and alpha R < 1. With a large alpha and a small "
+      "k the run stops where this limit is reached; parameters published for magnetic materials then "
+      "usually need \"anhysteretic\": \"langevin\".");
   spec.remark(
-      "\"upright\": \"passed\" takes the printed formula on behind that, in steps that jump over the pole: no physics, "
-      "but what searches over random parameters did that were published.");
+      "\"upright\": \"passed\" continues the printed formula beyond that limit, with steps that jump over "
+      "the pole. This is not physical; it reproduces published searches over random parameters.");
   spec.remark(
-      "The normalised model of the thesis (Eq. 4.4): scale is the measured stroke over that of the law, found by "
-      "linear "
-      "least squares; a fit of p_s, a, alpha, k, c then cares for the shape alone.");
+      "For the normalised model of the thesis (Eq. 4.4), scale is the ratio of the measured stroke to that "
+      "of the law, found by linear least squares; p_s, a, alpha, k and c then describe the shape only.");
   spec.variation("scale", "jiles_atherton", {{"scale", "1"}});
-  spec.input(&In<double>::u, "u", "$a", "drive: field or voltage");
+  spec.input(&In<double>::u, "u", "$a", "input: field or voltage");
   spec.state(&State<double>::p, "p", "$b", "polarisation");
   spec.output(&Out<double>::y, "y", "$b", "polarisation or displacement");
   jiles_atherton_parameters(spec);
-  spec.param(&Params<double>::initial, "initial", "$b", "polarisation at the start").optional("0").difference();
+  spec.param(&Params<double>::initial, "initial", "$b", "initial polarisation").optional("0").difference();
   scale_parameter(spec).linear();
-  spec.text("upright", {"ends", "passed"}, "where the curve turns upright: the run ends, or the formula is taken on");
+  spec.text("upright", {"ends", "passed"},
+            "where the slope becomes infinite: stop the run, or continue with the formula");
 }
 std::string JilesAtherton::check(const Params<double>& p) {
   if (!(std::fabs(p.initial) <= p.p_s))
@@ -88,7 +91,7 @@ std::string JilesAtherton::check(const Params<double>& p) {
 }
 
 void JilesAthertonInverse::describe(BlockSpec<JilesAthertonInverse>& spec) {
-  spec.name("jiles_atherton_inverse", "drive that makes a Jiles-Atherton actuator follow the wanted displacement")
+  spec.name("jiles_atherton_inverse", "inverse of Jiles-Atherton: command for a desired displacement")
       .in_group("compensators")
       .elementwise()
       .rate_independent()
@@ -97,18 +100,17 @@ void JilesAthertonInverse::describe(BlockSpec<JilesAthertonInverse>& spec) {
       .from(jiles_atherton_source);
   spec.remark("Takes the parameters of the block jiles_atherton that it compensates.");
   spec.remark(
-      "The input must have a rate: noise needs a filter in between. Where it is sampled, "
-      "sampled_jiles_atherton_inverse "
-      "costs less.");
+      "The input must have a rate: noise needs a filter in between. For a sampled input use "
+      "sampled_jiles_atherton_inverse, which is faster.");
   spec.remark(
-      "Holds where F stays positive: elsewhere no command makes the output follow, and the run ends. On a loop that "
-      "does not begin at rest, origin is the actuator's y at y = 0.");
-  spec.input(&In<double>::y, "y", "$b", "wanted displacement");
+      "Valid where F is positive; elsewhere there is no inverse, and the run ends. Where the actuator "
+      "does not start at rest, origin is its output at zero displacement.");
+  spec.input(&In<double>::y, "y", "$b", "desired displacement");
   spec.state(&State<double>::u, "u", "$a", "command");
   spec.output(&Out<double>::u, "u", "$a", "command");
   jiles_atherton_parameters(spec);
-  spec.param(&Params<double>::initial, "initial", "$a", "command at the start").optional("0").difference();
-  spec.param(&Params<double>::origin, "origin", "$b", "polarisation that counts as displacement zero")
+  spec.param(&Params<double>::initial, "initial", "$a", "initial command").optional("0").difference();
+  spec.param(&Params<double>::origin, "origin", "$b", "output of the actuator that counts as zero displacement")
       .optional("0")
       .difference();
   scale_parameter(spec);
@@ -116,7 +118,7 @@ void JilesAthertonInverse::describe(BlockSpec<JilesAthertonInverse>& spec) {
 std::string JilesAthertonInverse::check(const Params<double>& p) { return inverse_check(p); }
 
 void SampledJilesAthertonInverse::describe(BlockSpec<SampledJilesAthertonInverse>& spec) {
-  spec.name("sampled_jiles_atherton_inverse", "jiles_atherton_inverse of a digital controller")
+  spec.name("sampled_jiles_atherton_inverse", "inverse of Jiles-Atherton hysteresis in a digital controller")
       .in_group("sampled")
       .elementwise()
       .at("command");
@@ -125,15 +127,15 @@ void SampledJilesAthertonInverse::describe(BlockSpec<SampledJilesAthertonInverse
       .from(std::string(jiles_atherton_source) + "; Cash, Karp, ACM Trans. Math. Softw. 16 (1990) 201-222");
   spec.remark("Takes the parameters of the block jiles_atherton that it compensates.");
   spec.remark(
-      "Each sample is integrated with controlled error (1e-10 of its way), however large the step. Before the first "
-      "instant the wanted displacement is taken to have been zero.");
-  spec.input(&In<double>::y, "y", "$b", "wanted displacement");
+      "Each sample is integrated with error control (1e-10 of the step), however large the step. Before "
+      "the first instant the desired displacement is taken as zero.");
+  spec.input(&In<double>::y, "y", "$b", "desired displacement");
   spec.state(&State<double>::u, "u", "$a", "last command");
-  spec.state(&State<double>::y, "y", "$b", "last wanted displacement");
+  spec.state(&State<double>::y, "y", "$b", "last desired displacement");
   spec.output(&Out<double>::u, "u", "$a", "command");
   jiles_atherton_parameters(spec);
   spec.param(&Params<double>::initial, "initial", "$a", "command before the first instant").optional("0").difference();
-  spec.param(&Params<double>::origin, "origin", "$b", "polarisation that counts as displacement zero")
+  spec.param(&Params<double>::origin, "origin", "$b", "output of the actuator that counts as zero displacement")
       .optional("0")
       .difference();
   scale_parameter(spec);

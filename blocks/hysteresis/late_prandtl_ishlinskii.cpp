@@ -8,20 +8,22 @@ namespace hysteron::blocks {
 void LatePrandtlIshlinskii::describe(Declaration& d) {
   PrandtlIshlinskii::describe(d);
   d.variations.clear();
-  d.name("late_prandtl_ishlinskii", "hysteresis of play operators that follows late").in_group("hysteresis");
+  d.name("late_prandtl_ishlinskii", "Prandtl-Ishlinskii hysteresis with relaxation (rate-dependent)")
+      .in_group("hysteresis");
   d.law(
        "y = sum weights[i] (w_i - share (q_i - h_i)), q_i = w_i - ahead u, time_i dh_i/dt = q_i - h_i, time_i = time "
        "(thresholds[i]/largest)^spread, operators with a threshold only; w_i as in prandtl_ishlinskii")
       .from(
           "relaxation of first order of the switched part: Smith, Smart Material Systems (2005), section 2.6; for slow "
           "motion the same as thresholds that grow with the rate, Al Janaideh, Krejci, Appl. Math. 68 (2023)");
-  d.remark("At share 0 nothing comes late: it is prandtl_ishlinskii.");
-  d.remark("ahead 0: the operators themselves come late. ahead 1: how far they are behind the input comes late.");
-  d.state("h", "$a", "late part of each operator");
+  d.remark("With share 0 nothing is delayed: the block equals prandtl_ishlinskii.");
+  d.remark("With ahead 0 the operator outputs relax; with ahead 1 their difference from the input relaxes.");
+  d.state("h", "$a", "relaxed part of each operator");
   d.parameter("time", "s", "time constant of the operator with the largest threshold").optional("1 ms").positive();
-  d.parameter("share", "", "of the late part which comes late").optional("1");
-  d.parameter("ahead", "", "how much of the input itself goes ahead").optional("0");
-  d.parameter("spread", "", "exponent with which the times grow with the threshold").optional("0");
+  d.parameter("share", "", "fraction of the hysteretic part that relaxes, 0 .. 1").optional("1");
+  d.parameter("ahead", "", "fraction of the input that is subtracted from each operator before the relaxation")
+      .optional("0");
+  d.parameter("spread", "", "exponent of the threshold in the time constants; 0 = all equal").optional("0");
 }
 
 Sizes LatePrandtlIshlinskii::sizes(const Shape& shape) {

@@ -5,19 +5,22 @@
 namespace hysteron::blocks {
 
 void MaxwellCapacitor::describe(Declaration& d) {
-  d.name("maxwell_capacitor", "Maxwell resistive capacitor: hysteresis between charge and voltage")
+  d.name("maxwell_capacitor", "Maxwell resistive capacitor: hysteresis of voltage against charge")
       .in_group("hysteresis");
   d.law("u = sum elastances[i] (q - w_i), w_i = max(q - yield_charges[i], min(q + yield_charges[i], w_i before))")
       .from("Goldfarb, Celanovic, IEEE Control Syst. 17 (1997) no. 3, 69-79; thesis Eq. 5.8");
   d.remark(
-      "An elastance is 1/C_i. Each element holds at most its yield charge; what it has held stays in its voltage.");
-  d.remark(
-      "In series with a capacitor and a transducer it makes the circuit of diagrams/stages/electromechanical.json.");
-  d.remembers("q", "the charge w_i by which each element has yielded");
-  d.input("q", "C", "charge that has passed");
+      "An elastance is 1/C_i. The charge on each element is limited to its yield charge, where it slips "
+      "like a Coulomb friction element.");
+  d.remark("Used in series with a capacitor and a transducer in diagrams/stages/electromechanical.json.");
+  d.remembers("q", "the charge w_i by which each element has slipped");
+  d.input("q", "C", "charge that has flowed through all elements");
   d.output("u", "V", "voltage across all elements");
-  d.list("yield_charges", "C", "largest charge that each element holds").increasing().positive().difference();
-  d.list("elastances", "1/F", "voltage per charge of each element, 1/C_i")
+  d.list("yield_charges", "C", "largest charge on each element, where it begins to slip")
+      .increasing()
+      .positive()
+      .difference();
+  d.list("elastances", "1/F", "elastance of each element, 1/C_i")
       .not_negative()
       .linear()
       .difference()

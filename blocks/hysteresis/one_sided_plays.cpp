@@ -20,7 +20,7 @@ void start_one_sided_plays(const View<double>& v, std::span<const double> thresh
 
 std::string begins_at_zero(double first) {
   if (first != 0)
-    return fmt::format("the first threshold is {{{} in thresholds}}; begin with 0, the linear part, which bends",
+    return fmt::format("the first threshold is {{{} in thresholds}}; begin with 0, the linear part, which saturates",
                        first);
   return "";
 }

@@ -30,7 +30,7 @@ std::vector<Seen> seen_kernels(std::span<const double> level, std::span<const do
 }  // namespace
 
 void Preisach::describe(Declaration& d) {
-  d.name("preisach", "rate-independent hysteresis: relays of a density that is even within cells, beside a linear part")
+  d.name("preisach", "Preisach hysteresis with piecewise constant density and a linear part")
       .in_group("hysteresis")
       .elementwise()
       .at("core");
@@ -45,17 +45,18 @@ void Preisach::describe(Declaration& d) {
       "the order (0, 0), (1, 0), (1, 1), (2, 0) ...: one for every pair of cells with j not above i, 55 for 11 "
       "levels.");
   d.remark(
-      "The relays of i = j have no loop of their own: they make a curve. All relays stand still beyond the levels.");
+      "The cells i = j have no loop of their own: they form a single-valued curve. Beyond the levels no "
+      "relay switches.");
   d.remark(
-      "The relays start without a history about \"before\": up are those whose middle lies below it, as after a drive "
-      "that swung about it ever less.");
-  d.remembers("u", "the level up to which the relays of each kernel are up, within the cell in which they switch up");
+      "The initial memory is the demagnetised state about \"before\": relays whose centre lies below it "
+      "are up, as after an oscillation about it with decreasing amplitude.");
+  d.remembers("u", "input level up to which the relays of each pair of cells are up");
   d.input("u", "$a", "drive");
   d.output("y", "$b", "displacement");
-  d.list("levels", "$a", "ends of the cells of the drive").increasing();
-  d.list("weights", "$b", "what the relays of each kernel make when they have all switched").linear();
-  d.parameter("gain", "$b/$a", "the linear part").linear();
-  d.parameter("before", "$a", "an input about which the relays have come to rest before the start").optional("0");
+  d.list("levels", "$a", "limits of the cells along the input, increasing").increasing();
+  d.list("weights", "$b", "output of each pair of cells when all its relays have switched").linear();
+  d.parameter("gain", "$b/$a", "gain of the linear part").linear();
+  d.parameter("before", "$a", "input value about which the relays were demagnetised before the start").optional("0");
 }
 
 Sizes Preisach::sizes(const Shape& shape) {
@@ -64,8 +65,7 @@ Sizes Preisach::sizes(const Shape& shape) {
   const auto weights = static_cast<std::size_t>(shape.length("weights"));
   s.memory = static_cast<int>(weights);
   if (levels < 2 || levels > preisach::most_cells + 1)
-    s.error = fmt::format("{} \"levels\" are none that relays could lie between; give 2 to {}", levels,
-                          preisach::most_cells + 1);
+    s.error = fmt::format("{} \"levels\" enclose no cell; give 2 to {}", levels, preisach::most_cells + 1);
   else if (weights != preisach::kernels(levels))
     s.error = fmt::format("{} \"levels\" have {} pairs of cells, and there are {} \"weights\"; give one for each pair",
                           levels, preisach::kernels(levels), weights);
@@ -80,8 +80,9 @@ std::string Preisach::check_memory(const View<double>& v) {
   constexpr double slack = 1e-9;
   return preisach::can_stand(v.list(levels), v.memory(), slack)
              ? ""
-             : "no drive leaves relays so: each must lie within the cell in which it switches up, and who switches at "
-               "lower levels is up before the others; take \"memory\" out, or give what a run has left behind";
+             : "no input leads to this state of the relays: each value must lie within the cell in which the relays "
+               "switch up, and relays of lower levels switch up first; take \"memory\" out, or give the memory at "
+               "the end of a run";
 }
 
 void Preisach::rows_of(const RowsView& r, int lane) {

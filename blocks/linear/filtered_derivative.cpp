@@ -3,13 +3,13 @@
 namespace hysteron::blocks {
 
 void FilteredDerivative::describe(BlockSpec<FilteredDerivative>& spec) {
-  spec.name("filtered_derivative", "rate of its input, behind a lag").in_group("linear").elementwise().linear();
+  spec.name("filtered_derivative", "filtered derivative of its input").in_group("linear").elementwise().linear();
   spec.law("y = (u - x)/time, dx/dt = y: u s/(time s + 1)").from("definition");
-  spec.remark("A jump of the input is a peak of its height over time. Nothing in nature differentiates without a lag.");
+  spec.remark("A step of the input gives a peak of height step/time. A pure derivative is not realisable.");
   spec.input(&In<double>::u, "u", "$a", "the signal");
-  spec.state(&State<double>::x, "x", "$a", "the signal behind the lag");
-  spec.output(&Out<double>::y, "y", "$a/s", "its rate");
-  spec.param(&Params<double>::time, "time", "s", "time constant of the lag").positive();
+  spec.state(&State<double>::x, "x", "$a", "the filtered signal");
+  spec.output(&Out<double>::y, "y", "$a/s", "filtered derivative of the signal");
+  spec.param(&Params<double>::time, "time", "s", "time constant of the filter").positive();
 }
 
 Kernel filtered_derivative_block() { return kernel<FilteredDerivative>(); }

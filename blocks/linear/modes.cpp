@@ -3,19 +3,21 @@
 namespace hysteron::blocks {
 
 void Modes::describe(Declaration& d) {
-  d.name("modes", "modes that ring beside what the signal does").in_group("linear").elementwise().linear();
+  d.name("modes", "adds resonant modes to a motion, static gain 1").in_group("linear").elementwise().linear();
   d.law(
        "y = u + sum positions[k] (q_k - u) + velocities[k] q_k'/w_k, q_k'' + 2 dampings[k] w_k q_k' + w_k^2 q_k = "
        "w_k^2 u, w_k = 2 pi frequencies[k]")
       .from("modal sum with two residues; Preumont, Vibration Control of Active Structures, 3rd ed. (2011), chapter 2");
-  d.remark("The static gain stays: a position is the share of it that moves with the mode. 0 and 0 change nothing.");
+  d.remark(
+      "The static gain stays 1: positions[k] is the fraction of the motion that moves with mode k. With "
+      "positions and velocities 0 the block has no effect.");
   d.input("u", "$a", "the motion without the modes");
   d.output("y", "$a", "the motion with the modes");
-  d.state("q", "$a", "motion of each mode, then its velocity over w");
+  d.state("q", "$a", "motion of each mode, then its velocity over w_k");
   d.list("frequencies", "Hz", "undamped natural frequency of each mode").positive();
   d.list("dampings", "", "damping ratio of each mode").not_negative().as_long_as("frequencies");
-  d.list("positions", "", "residues: share of each mode's motion").linear().as_long_as("frequencies");
-  d.list("velocities", "", "residues: share of each mode's velocity over w").linear().as_long_as("frequencies");
+  d.list("positions", "", "residues: fraction of each mode's motion q_k").linear().as_long_as("frequencies");
+  d.list("velocities", "", "residues: fraction of each mode's velocity q_k'/w_k").linear().as_long_as("frequencies");
 }
 
 Sizes Modes::sizes(const Shape& shape) {

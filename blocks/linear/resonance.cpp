@@ -3,16 +3,20 @@
 namespace hysteron::blocks {
 
 void Resonance::describe(BlockSpec<Resonance>& spec) {
-  spec.name("resonance", "one lightly damped mode, gain one").in_group("linear").elementwise().linear();
+  spec.name("resonance", "one resonance (second-order low-pass), static gain 1")
+      .in_group("linear")
+      .elementwise()
+      .linear();
   spec.law("y'' + 2 damping w y' + w^2 y = w^2 u, w = 2 pi frequency").from("second-order low-pass, definition");
   spec.remark(
-      "A stage of mass m on stiffness k has frequency sqrt(k/m)/(2 pi); a load M lowers it by sqrt(m/(m + M)).");
+      "A stage of mass m on stiffness k has the frequency sqrt(k/m)/(2 pi); a load M lowers it by the "
+      "factor sqrt(m/(m + M)).");
   spec.input(&In<double>::u, "u", "$a", "the motion that drives the stage");
   spec.state(&State<double>::y, "y", "$a", "motion of the stage");
-  spec.state(&State<double>::v, "v", "$a", "its velocity over w");
+  spec.state(&State<double>::v, "v", "$a", "velocity of the stage over w");
   spec.output(&Out<double>::y, "y", "$a", "motion of the stage");
   spec.param(&Params<double>::frequency, "frequency", "Hz", "undamped natural frequency").positive();
-  spec.param(&Params<double>::damping, "damping", "", "damping ratio; 1 does not ring").not_negative();
+  spec.param(&Params<double>::damping, "damping", "", "damping ratio; 1 = critically damped").not_negative();
 }
 
 Kernel resonance_block() { return kernel<Resonance>(); }

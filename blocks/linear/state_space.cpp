@@ -11,7 +11,7 @@
 namespace hysteron::blocks {
 
 void StateSpace::describe(Declaration& spec) {
-  spec.name("state_space", "linear system of any order with vectors at its ports").in_group("linear").linear();
+  spec.name("state_space", "linear state-space system with vector ports").in_group("linear").linear();
   spec.law("dx/dt = A x + B u, y = C x + D u, x(0) = initial").from("definition");
   spec.remark(
       "The matrices are plain numbers for t in s, u in \"input_unit\" and y in \"output_unit\": with \"input_unit\": "
@@ -22,20 +22,19 @@ void StateSpace::describe(Declaration& spec) {
 
 void Matrices::describe_matrices(Declaration& spec) {
   spec.remark(
-      "Without \"d\" the input acts through the states only, and the block can stand in any loop; so can an output "
-      "whose "
-      "row of D is zero.");
+      "Without \"d\" there is no direct feedthrough, so the block can close any loop; the same holds for "
+      "an output whose row of D is zero.");
   spec.remark("Rows as lists: \"a\": [[0, 1], [-400, -4]], \"b\": [[0], [400]], \"c\": [[1, 0]].");
   spec.input("u", "$u", "the inputs, one per column of B").vector();
   spec.output("y", "$y", "the outputs, one per row of C").vector();
-  spec.state("x", "", "states, as the matrices mean them");
+  spec.state("x", "", "states, in the units of the matrices");
   spec.matrix("a", "", "A, one row and column per state");
   spec.matrix("b", "", "B, one row per state, one column per input");
   spec.matrix("c", "", "C, one row per output, one column per state").linear();
   spec.matrix("d", "", "D, one row per output, one column per input").optional("").linear();
-  spec.list("initial", "", "states at the start, zero if left out").optional("");
-  spec.text("input_unit", {}, "unit of the inputs in which the matrices count").optional("");
-  spec.text("output_unit", {}, "unit of the outputs in which the matrices count").optional("");
+  spec.list("initial", "", "initial states, zero if left out").optional("");
+  spec.text("input_unit", {}, "unit of the inputs that the matrices refer to").optional("");
+  spec.text("output_unit", {}, "unit of the outputs that the matrices refer to").optional("");
 }
 
 Sizes Matrices::sizes_of(const Shape& shape) {

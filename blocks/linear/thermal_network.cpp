@@ -7,28 +7,29 @@
 namespace hysteron::blocks {
 
 void ThermalNetwork::describe(Declaration& d) {
-  d.name("thermal_network", "temperatures of bodies that exchange heat").in_group("linear").linear();
+  d.name("thermal_network", "lumped thermal network: temperatures of bodies that exchange heat")
+      .in_group("linear")
+      .linear();
   d.law("capacities_i dT_i/dt = heat_i + to_ambient_i (ambient - T_i) + sum_j between_ij (T_j - T_i)")
       .from("Incropera, DeWitt, Fundamentals of Heat and Mass Transfer, 6th ed. (2007), chapter 5 (lumped capacities)");
   d.remark(
-      "One number per body in capacities, to_ambient and initial; between has one per pair: (1,2), (1,3) ... (2,3) ... "
-      "For "
-      "one body leave it out, for bodies that do not touch write 0.");
-  d.remark("heat is a vector with one element per body: join single signals with a mux.");
+      "capacities, to_ambient and initial have one number per body; between has one per pair: (1,2), (1,3) "
+      "... (2,3) ... Leave it out for a single body; write 0 for bodies that are not in contact.");
+  d.remark("heat is a vector with one element per body: join single signals with a \"mux\".");
   d.remark(
-      "Where a simulation starts at rest, initial has no effect; a body without any way to the ambient has no "
-      "rest.");
-  d.input("heat", "W", "heat that each body takes up").vector();
-  d.input("ambient", "K", "temperature of the surroundings");
+      "Where a simulation starts in steady state, initial has no effect; a body without a path to the "
+      "ambient has no steady state.");
+  d.input("heat", "W", "heat flow into each body").vector();
+  d.input("ambient", "K", "ambient temperature");
   d.output("temperature", "K", "temperature of each body").vector();
   d.state("temperature", "K", "temperature of each body").nominal(300);
   d.list("capacities", "J/K", "heat capacity of each body").positive().difference();
-  d.list("to_ambient", "W/K", "conductance of each body to the ambient")
+  d.list("to_ambient", "W/K", "thermal conductance of each body to the ambient")
       .not_negative()
       .difference()
       .as_long_as("capacities");
-  d.list("between", "W/K", "conductance of each pair of bodies").optional("").not_negative().difference();
-  d.list("initial", "K", "temperature of each body at the start").as_long_as("capacities");
+  d.list("between", "W/K", "thermal conductance of each pair of bodies").optional("").not_negative().difference();
+  d.list("initial", "K", "initial temperature of each body").as_long_as("capacities");
 }
 
 Sizes ThermalNetwork::sizes(const Shape& shape) {

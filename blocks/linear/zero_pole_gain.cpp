@@ -7,19 +7,20 @@
 namespace hysteron::blocks {
 
 void ZeroPoleGain::describe(Declaration& d) {
-  d.name("zero_pole_gain", "zeros, poles and a gain").in_group("linear").elementwise().linear();
+  d.name("zero_pole_gain", "transfer function by zeros, poles and gain").in_group("linear").elementwise().linear();
   d.law("Y(s) = gain product (s - zero)/product (s - pole) U(s), a pair [a, b] being the factor (s - a)^2 + b^2")
       .from("balanced companion form: Parlett, Reinsch, Numer. Math. 13 (1969) 293-304");
   d.remark(
-      "Zeros and poles are plain numbers in 1/s; the unit stands at the gain, which is the quotient of the highest powers "
-      "and not the static gain. Real ones stand in \"zeros\" and \"poles\": \"poles\": [-5, -40].");
+      "Zeros and poles are plain numbers in 1/s. The gain carries the unit; it is the ratio of the leading "
+      "coefficients, not the static gain. Real zeros and poles are given in \"zeros\" and \"poles\": "
+      "\"poles\": [-5, -40].");
   d.remark(
       "Complex ones come in pairs, [real part, imaginary part]: \"pole_pairs\": [[-3, 40]] is -3 + 40i and -3 - 40i.");
-  d.remark("Sections by frequency and damping are \"biquads\", coefficients \"transfer_function\".");
+  d.remark("For sections by frequency and damping use \"biquads\", for coefficients \"transfer_function\".");
   d.input("u", "$a", "the input");
   d.output("y", "$b", "the response");
   d.state("x", "$a", "states of the chain, one per pole");
-  d.parameter("gain", "$b/$a", "quotient of the highest powers, carries the unit").optional("1").linear();
+  d.parameter("gain", "$b/$a", "ratio of the leading coefficients; carries the unit").optional("1").linear();
   d.list("zeros", "", "real zeros [1/s]").optional("");
   d.matrix("zero_pairs", "", "complex zeros [1/s], one row [real, imaginary] per pair").optional("");
   d.list("poles", "", "real poles [1/s]").optional("");
@@ -37,8 +38,10 @@ Sizes ZeroPoleGain::sizes(const Shape& shape) {
       s.error = fmt::format("\"{}\" has {} columns; write one row [real part, imaginary part] per pair", pairs,
                             shape.columns_of(pairs));
   if (s.error.empty() && n > s.states)
-    s.error =
-        fmt::format("{} zeros and {} poles: that differentiates; give at most as many zeros as poles", n, s.states);
+    s.error = fmt::format(
+        "{} zeros and {} poles: this is not proper (it would differentiate); give at most as many zeros as "
+        "poles",
+        n, s.states);
   return s;
 }
 

@@ -3,27 +3,28 @@
 namespace hysteron::blocks {
 
 void Compare::describe(BlockSpec<Compare>& spec) {
-  spec.name("compare", "is one signal less than another, equal, greater: 1 or 0").in_group("logic").elementwise();
+  spec.name("compare", "compares two signals: output 1 or 0").in_group("logic").elementwise();
   spec.law("y = 1 if \"a is b\" holds, else 0").from("definition");
-  spec.remark("The instants at which the answer changes are located. Against a level: \"comparator\".");
-  spec.remark("Signals that move are equal for an instant only; what counts (0, 1, 2) can be asked for equality.");
-  spec.input(&In<double>::a, "a", "$a", "what stands on the left");
-  spec.input(&In<double>::b, "b", "$a", "what stands on the right");
+  spec.remark("The instants at which the result changes are located. To compare with a constant use \"comparator\".");
+  spec.remark(
+      "Continuous signals are equal for an instant only; use equality for signals with whole values (0, 1, "
+      "2).");
+  spec.input(&In<double>::a, "a", "$a", "left-hand side");
+  spec.input(&In<double>::b, "b", "$a", "right-hand side");
   spec.output(&Out<double>::y, "y", "", "1 = true, 0 = false");
-  spec.text("is", {"less", "at_most", "equal", "not_equal", "at_least", "greater"},
-            "what is asked: a is less than b ...");
+  spec.text("is", {"less", "at_most", "equal", "not_equal", "at_least", "greater"}, "relation: a is less than b, ...");
 }
 
 void Comparator::describe(BlockSpec<Comparator>& spec) {
-  spec.name("comparator", "one of two values, above or below a level").in_group("logic").elementwise();
+  spec.name("comparator", "comparator: one of two values, above or below a level").in_group("logic").elementwise();
   spec.law("y = above if u > level, else below").from("definition");
-  spec.remark("Without hysteresis: noise about the level switches it to and fro. With it: \"relay\".");
+  spec.remark("It has no hysteresis: noise about the level causes repeated switching. For hysteresis use \"relay\".");
   spec.remark("The switching instants are located. The output jumps.");
-  spec.input(&In<double>::u, "u", "$a", "what is held against the level");
-  spec.output(&Out<double>::y, "y", "$b", "the value in force");
-  spec.param(&Params<double>::level, "level", "$a", "the level");
-  spec.param(&Params<double>::above, "above", "$b", "output above it").linear();
-  spec.param(&Params<double>::below, "below", "$b", "output at the level and below").linear();
+  spec.input(&In<double>::u, "u", "$a", "the signal to compare with the level");
+  spec.output(&Out<double>::y, "y", "$b", "the value above or below");
+  spec.param(&Params<double>::level, "level", "$a", "level that the input is compared with");
+  spec.param(&Params<double>::above, "above", "$b", "output while the input is above the level").linear();
+  spec.param(&Params<double>::below, "below", "$b", "output while the input is at or below the level").linear();
 }
 
 Kernel compare_block() { return kernel<Compare>(); }

@@ -5,12 +5,13 @@
 namespace hysteron::blocks {
 
 void LogicGate::describe(Declaration& d) {
-  d.name("logic", "and, or, not, exclusive or: 1 or 0").in_group("logic").elementwise();
-  d.law("y = 1 if the inputs are true as \"is\" asks, else 0; true is what lies above 1/2").from("definition");
-  d.remark("Longer conditions are shorter as an \"expression\": \"a and not (b or c > 2)\".");
-  d.inputs_any("in", "", "signals that are 1 (true) or 0 (false)");
+  d.name("logic", "logic gate: and, or, nand, nor, xor, not").in_group("logic").elementwise();
+  d.law("y = 1 if the operation \"is\" of the inputs is true, else 0; above 1/2 counts as true").from("definition");
+  d.remark("Longer conditions are easier to write as an \"expression\": \"a and not (b or c > 2)\".");
+  d.inputs_any("in", "", "1 = true, 0 = false; above 1/2 counts as true");
   d.output("y", "", "1 = true, 0 = false");
-  d.text("is", {"and", "or", "nand", "nor", "xor", "not"}, "xor: an odd number of them is true; not: of one input");
+  d.text("is", {"and", "or", "nand", "nor", "xor", "not"},
+         "logic operation; xor: an odd number of inputs is true; not: one input");
 }
 
 Sizes LogicGate::sizes(const Shape& shape) {
@@ -18,7 +19,7 @@ Sizes LogicGate::sizes(const Shape& shape) {
   s.smoothness = Smoothness::jumps;
   s.kinks = shape.inputs;
   if (shape.text("is") == "not" && shape.inputs != 1)
-    s.error = fmt::format("\"not\" takes one input, found {}; nor is true where none of several is", shape.inputs);
+    s.error = fmt::format("\"not\" takes one input, found {}; for several inputs use \"nor\"", shape.inputs);
   return s;
 }
 

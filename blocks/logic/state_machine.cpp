@@ -63,27 +63,28 @@ int place_among(std::vector<std::string>& names, const std::string& name) {
 }  // namespace
 
 void StateMachine::describe(Declaration& d) {
-  d.name("state_machine", "states one at a time, conditions that lead from one to another, values of each")
-      .in_group("logic");
+  d.name("state_machine", "state machine: states, transitions and outputs per state").in_group("logic");
   d.law(
-       "where a condition \"from -> to: ...\" holds in the state \"from\" the state is \"to\"; outputs as its lists say")
+       "in the state \"from\", when the condition of \"from -> to: condition\" holds, the state becomes "
+       "\"to\"; each output has the value of its list for the state")
       .from("definition; conditions as those of \"expression\"");
   d.named_by("transitions");
   d.remark(
-      "\"states\": \"search, leave, home\"; it begins in the first. \"transitions\": \"search -> leave: at_stop; leave -> "
-      "home: not at_stop and time > t0\"; of several that hold the first counts; \"*\" stands for every other state.");
+      "\"states\": \"search, leave, home\"; the first is the initial state. \"transitions\": \"search -> "
+      "leave: at_stop; leave -> home: not at_stop and time > t0\"; if several conditions hold, the first "
+      "is taken; \"*\" stands for every other state.");
   d.remark(
-      "Names in conditions are parameters if the block has a value for them, else inputs; \"time\" is the time in the "
-      "state. Instants at which a condition begins to hold are located.");
+      "Names in conditions are parameters if the block has a value for them, else inputs; \"time\" is the "
+      "time since the state was entered. The instants at which a condition becomes true are located.");
   d.remark(
       "\"outputs\": \"velocity, brake\" names further outputs; each is a list with one value per state: \"velocity\": "
       "[\"-20 mm/s\", \"5 mm/s\", \"0 mm/s\"].");
-  d.inputs_any("in", "$in", "the names in the conditions that are no parameters, in the order in which they appear");
+  d.inputs_any("in", "$in", "the names in the conditions that are not parameters, in order of appearance");
   d.output("state", "", "the state: 0, 1, 2 ... in the order of \"states\"");
-  d.state("time", "s", "the time in the state").nominal(1.0);
-  d.text("states", {}, "their names, the one to begin in first");
-  d.text("transitions", {}, "from -> to: condition; ...");
-  d.text("outputs", {}, "names of further outputs, for which there is a list with a value per state").optional("");
+  d.state("time", "s", "time since the state was entered").nominal(1.0);
+  d.text("states", {}, "names of the states; the first is the initial state");
+  d.text("transitions", {}, "transitions: \"from -> to: condition; ...\"");
+  d.text("outputs", {}, "names of further outputs, each with a list of one value per state").optional("");
 }
 
 Declaration StateMachine::instance(const Declaration& type, const Node& block) {
@@ -97,7 +98,7 @@ Declaration StateMachine::instance(const Declaration& type, const Node& block) {
   d.inputs.clear();
   for (const auto& name : m.outputs) {
     d.list(name, "$" + name, "one value per state").linear();
-    d.output(name, "$" + name, "the value that the state gives");
+    d.output(name, "$" + name, "value for the present state");
   }
   for (const auto& t : m.transitions)
     for (const auto& name : t.condition.symbols) {

@@ -3,18 +3,18 @@
 namespace hysteron::blocks {
 
 void Absolute::describe(BlockSpec<Absolute>& spec) {
-  spec.name("abs", "the absolute value").in_group("math").elementwise().law("y = |u|").from("definition");
-  spec.remark("It bends at zero, which is located. Only a share of it is a \"rectifier\".");
+  spec.name("abs", "absolute value").in_group("math").elementwise().law("y = |u|").from("definition");
+  spec.remark("It has a kink at zero, whose crossing is located. For a partly rectified signal use \"rectifier\".");
   spec.input(&In<double>::u, "u", "$a", "the signal");
-  spec.output(&Out<double>::y, "y", "$a", "its size");
+  spec.output(&Out<double>::y, "y", "$a", "absolute value of the signal");
 }
 
 void Sign::describe(BlockSpec<Sign>& spec) {
-  spec.name("sign", "1, 0 or -1: the direction of a signal").in_group("math").elementwise();
+  spec.name("sign", "sign of a signal: 1, 0 or -1").in_group("math").elementwise();
   spec.law("y = 1 if u > 0, -1 if u < 0, else 0").from("definition");
   spec.remark(
-      "It jumps at zero, which is located. Friction is none of it: a sign of a velocity in a loop chatters; "
-      "\"mass_with_friction\" sticks.");
+      "It jumps at zero, whose crossing is located. Do not use it for friction: the sign of a velocity in "
+      "a loop chatters; use \"mass_with_friction\", which sticks.");
   spec.input(&In<double>::u, "u", "$a", "the signal");
   spec.output(&Out<double>::y, "y", "", "its sign");
 }

@@ -54,27 +54,29 @@ void refuse_unused(const Tree& tree, const Declaration& type, const Node& block)
 }  // namespace
 
 void Expression::describe(Declaration& d) {
-  d.name("expression", "a law that the diagram writes: \"a*sin(b*u) + max(u, 0)\"").in_group("math").elementwise();
-  d.law("y = what the text says").from("definition; grammar: models/math/expression_tree.h");
+  d.name("expression", "formula written in the diagram: \"a*sin(b*u) + max(u, 0)\"").in_group("math").elementwise();
+  d.law("y = value of the expression").from("definition; grammar: models/math/expression_tree.h");
   d.named_by("y");
   d.remark(
-      "Every name in the text is a parameter if the block has a value for it (\"a\": \"2 um\"), else an input, in the "
-      "order in which they first appear: \"in\": {\"u\": \"drive\"}, or \"in\": \"drive\" where there is one.");
+      "Every name in the expression is a parameter if the block has a value for it (\"a\": \"2 um\"), else "
+      "an input, in order of first appearance: \"in\": {\"u\": \"drive\"}, or \"in\": \"drive\" if there "
+      "is only one.");
   d.remark(
       "Operators + - * / ^ < <= > >= == != and or not; functions abs sign min max floor ceil round mod sqrt cbrt exp "
       "log log10 sin cos tan asin acos atan atan2 sinh cosh tanh hypot pow if(condition, then, else); the number pi. "
       "True is 1, false 0; what is above 0.5 counts as true.");
   d.remark(
-      "Units are checked: what is added or compared must have one unit, sin(x) takes an angle or a plain number, sqrt "
-      "halves units, and an exponent must be a number where the base has a unit. Numbers in the text have none; 0 fits "
-      "any.");
+      "Units are checked: terms that are added or compared must have the same unit, sin(x) takes an angle "
+      "or a plain number, sqrt takes the root of the unit, and an exponent must be a number if the base "
+      "has a unit. Numbers in the expression have no unit; 0 fits any unit.");
   d.remark(
-      "Parameters are fitted, set and varied as those of any block; those in which the value is affine are found by "
-      "linear least squares. Bends and jumps (abs, min, max, sign, if, comparisons, floor) are located.");
-  d.inputs_any("in", "$in", "the names in the text that are no parameters, in the order in which they appear");
-  d.output("y", "$result", "the value");
+      "Parameters can be fitted, set and varied like those of any block; those in which the value is "
+      "affine are found by linear least squares. Kinks and jumps (abs, min, max, sign, if, comparisons, "
+      "floor) are located.");
+  d.inputs_any("in", "$in", "the names in the expression that are not parameters, in order of appearance");
+  d.output("y", "$result", "value of the expression");
   d.text("y", {}, "the expression");
-  d.text("unit", {}, "unit of the value, where wires and parameters leave it open or it must be this one").optional("");
+  d.text("unit", {}, "unit of the value; needed where wires and parameters do not determine it").optional("");
 }
 
 Declaration Expression::instance(const Declaration& type, const Node& block) {

@@ -12,31 +12,35 @@ const std::array axis_names{"at", "at_2", "at_3", "at_4"};
 }  // namespace
 
 void Lookup::describe(Declaration& d) {
-  d.name("lookup", "a table: values at knots of one axis or several, and what lies between").in_group("math");
+  d.name("lookup", "lookup table over one to four axes, with interpolation").in_group("math");
   d.elementwise().at("core");
-  d.law("y = values at the knots \"at\"; between them straight, or a smooth curve through them")
+  d.law("y = values at the knots \"at\"; between them linear, or a smooth curve through them")
       .from(
           "linear: definition; akima: J. ACM 17 (1970) 589-602; monotone: Fritsch, Butland, SIAM J. Sci. Stat. Comput. 5 "
           "(1984) 300-304; several axes: one after the other");
   d.remark(
-      "Over two axes \"values\" are rows: one row per knot of \"at\", one number per knot of \"at_2\". Over three or four "
-      "they stand one behind the other, the last axis fastest. Each wire has an axis: \"in\": [\"current\", \"position\"].");
+      "With two axes \"values\" is a list of rows: one row per knot of \"at\", one number per knot of "
+      "\"at_2\". With three or four axes it is a flat list, the last axis varying fastest. Each wire "
+      "belongs to one axis: \"in\": [\"current\", \"position\"].");
   d.remark(
       "From a file: \"parameters\": \"curve.csv\", with the columns at and values, units in their headers (\"at [mm]\").");
   d.remark(
-      "A straight table bends at its knots: they are located. Its values can be fitted, by linear least squares. A curve "
-      "through measured knots: akima does not overshoot much, monotone not at all.");
-  d.remark("refuse: beyond its knots the run ends; give it further ones, or \"outside\": \"clip\" or \"extrapolate\".");
+      "A linear table has kinks at its knots, which are located. Its values can be fitted by linear least "
+      "squares. Of the smooth curves, akima overshoots little and monotone not at all.");
+  d.remark(
+      "With \"outside\": \"refuse\" the run ends beyond the knots; give further knots, or \"outside\": \"clip\" or "
+      "\"extrapolate\".");
   d.inputs_any("in", "$a", "one signal per axis");
-  d.output("y", "$y", "the value of the table there");
-  d.list("values", "$y", "at the knots").or_matrix().difference();
+  d.output("y", "$y", "the interpolated value");
+  d.list("values", "$y", "values at the knots").or_matrix().difference();
   d.list("at", "$a", "knots of the first axis, two at least").increasing();
   d.list("at_2", "$b", "knots of the second axis").optional("").increasing();
   d.list("at_3", "$c", "knots of the third axis").optional("").increasing();
   d.list("at_4", "$d", "knots of the fourth axis").optional("").increasing();
   d.text("between", {"linear", "akima", "monotone"},
-         "straight; a smooth curve; a smooth curve that rises and falls only where the values do");
-  d.text("outside", {"clip", "extrapolate", "refuse"}, "beyond the knots: held, straight on, or the run ends");
+         "interpolation: linear; akima (smooth); monotone (smooth, without overshoot)");
+  d.text("outside", {"clip", "extrapolate", "refuse"},
+         "outside the knots: clip holds the end value, extrapolate continues linearly, refuse stops the run");
 }
 
 /// The value is affine in the values of a straight table only.

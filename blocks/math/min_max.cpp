@@ -3,12 +3,14 @@
 namespace hysteron::blocks {
 
 void MinMax::describe(Declaration& d) {
-  d.name("min_max", "the smallest or the largest of several signals").in_group("math").elementwise();
+  d.name("min_max", "minimum or maximum of several signals").in_group("math").elementwise();
   d.law("y = max(u_1, u_2, ...) or min(u_1, u_2, ...)").from("definition");
-  d.remark("It bends where another signal takes over, which is located. Against a number: \"saturation\".");
+  d.remark(
+      "It has a kink where another signal takes over; these instants are located. To limit by a constant "
+      "use \"saturation\".");
   d.inputs_any("in", "$a", "the signals");
-  d.output("y", "$a", "the one that goes on");
-  d.text("is", {"max", "min"}, "the largest or the smallest");
+  d.output("y", "$a", "the smallest or largest signal");
+  d.text("is", {"max", "min"}, "which one is selected");
 }
 
 Sizes MinMax::sizes(const Shape& shape) {

@@ -5,7 +5,7 @@
 namespace hysteron::blocks {
 
 void Polynomial::describe(Declaration& d) {
-  d.name("polynomial", "static curve: a polynomial, straight on beyond two limits")
+  d.name("polynomial", "static curve: polynomial, extended by its tangents outside limits")
       .in_group("math")
       .elementwise()
       .at("core");
@@ -14,19 +14,21 @@ void Polynomial::describe(Declaration& d) {
        "limit")
       .from("definition; Horner's rule");
   d.remark(
-      "The reference is the input for which the coefficients are given: with 1 V, coefficients in um are um, um/V, "
+      "The reference scales the input: with \"reference\": \"1 V\", coefficients given in um are um, um/V, "
       "um/V^2 ...");
   d.remark(
-      "Where zero is far from what the input does, say what the powers are about: a temperature is counted from "
-      "absolute zero, and a curve about 20 degC has \"about\": \"20 degC\".");
-  d.remark("A polynomial leaves its data quickly: set the limits to the range that it was found on, or to \"-inf V\".");
+      "If the range of the input is far from zero, set the expansion point: temperatures count from "
+      "absolute zero, so a curve around 20 degC has \"about\": \"20 degC\".");
+  d.remark(
+      "Outside its data a polynomial diverges quickly: set the limits to the range of the data, or to "
+      "\"-inf V\" and \"inf V\" for none.");
   d.input("u", "$a", "the input");
-  d.output("y", "$b", "the curve at the input");
-  d.list("coefficients", "$b", "constant, linear, quadratic ... coefficient").linear().difference();
-  d.parameter("reference", "$a", "input at which x is 1").positive().difference();
-  d.parameter("lower", "$a", "below this input the curve is straight");
-  d.parameter("upper", "$a", "above this input the curve is straight");
-  d.parameter("about", "$a", "input at which x is 0").optional("0");
+  d.output("y", "$b", "value of the curve");
+  d.list("coefficients", "$b", "coefficients: constant, linear, quadratic ...").linear().difference();
+  d.parameter("reference", "$a", "input change over which x increases by 1").positive().difference();
+  d.parameter("lower", "$a", "lower limit: below it the curve continues as its tangent");
+  d.parameter("upper", "$a", "upper limit: above it the curve continues as its tangent");
+  d.parameter("about", "$a", "expansion point: input at which x is 0").optional("0");
 }
 
 Sizes Polynomial::sizes(const Shape& shape) {

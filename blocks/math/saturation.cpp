@@ -7,13 +7,13 @@
 namespace hysteron::blocks {
 
 void Saturation::describe(BlockSpec<Saturation>& spec) {
-  spec.name("saturation", "hard limit").in_group("math").elementwise().at("command");
+  spec.name("saturation", "saturation: limits a signal").in_group("math").elementwise().at("command");
   spec.law("y = max(lower, min(upper, u))").from("definition");
-  spec.remark("Where there is no limit on one side, write \"-inf V\" or \"inf V\" in the unit of the signal.");
+  spec.remark("For no limit on one side write \"-inf V\" or \"inf V\", in the unit of the signal.");
   spec.input(&In<double>::u, "u", "$a", "the signal");
   spec.output(&Out<double>::y, "y", "$a", "the limited signal");
-  spec.param(&Params<double>::lower, "lower", "$a", "smallest output");
-  spec.param(&Params<double>::upper, "upper", "$a", "largest output");
+  spec.param(&Params<double>::lower, "lower", "$a", "lower limit of the output");
+  spec.param(&Params<double>::upper, "upper", "$a", "upper limit of the output");
 }
 
 std::string Saturation::check(const Params<double>& p) {

@@ -10,7 +10,7 @@ void Sum::describe(Declaration& d) {
   d.remark("All signals must have one unit. \"signs\": \"+-\" subtracts the second wire; without it all are added.");
   d.inputs_any("in", "$a", "the signals, in the order of the signs");
   d.output("y", "$a", "their sum");
-  d.text("signs", {}, "one + or - per wire, all + if left out").optional("");
+  d.text("signs", {}, "one sign, + or -, per wire; all + if left out").optional("");
 }
 
 Sizes Sum::sizes(const Shape& shape) {

@@ -7,16 +7,15 @@
 namespace hysteron::blocks {
 
 void Trigonometry::describe(Declaration& d) {
-  d.name("trigonometry", "sine, cosine, tangent, their inverses, and the hyperbolic ones")
-      .in_group("math")
-      .elementwise();
+  d.name("trigonometry", "trigonometric and hyperbolic functions").in_group("math").elementwise();
   d.law("y = sin u, ..., atan2(u_1, u_2)").from("definition");
   d.remark(
-      "sin, cos and tan take an angle, or a plain number as one in rad; asin, acos, atan and atan2 give an angle.");
-  d.remark("atan2 takes two wires, y and x, in one unit; it jumps from pi to -pi, which is located.");
-  d.inputs_any("in", "$in", "the argument; of atan2 two: y and x");
+      "sin, cos and tan take an angle, or a plain number, which is read as rad; asin, acos, atan and atan2 "
+      "return an angle.");
+  d.remark("atan2 takes two wires, y and x, in the same unit; its jump from pi to -pi is located.");
+  d.inputs_any("in", "$in", "argument of the function; for atan2 two: y and x");
   d.output("y", "$y", "the value");
-  d.text("function", {"sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh"}, "which one");
+  d.text("function", {"sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh"}, "the function");
 }
 
 Sizes Trigonometry::sizes(const Shape& shape) {

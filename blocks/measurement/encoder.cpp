@@ -13,37 +13,39 @@ void describe_counting(BlockSpec<B>& d, const std::string& unit, const std::stri
        "second_cosine cos(4 pi u/pitch) + second_sine sin(4 pi u/pitch)")
       .from("Heydemann, Applied Optics 20 (1981) 3382-3384 (errors of interpolation); counts: definition");
   d.remark(
-      "divisions: 4 for the edges of two square signals, thousands where sine and cosine are interpolated, 0 where nothing is "
-      "counted. Every count is an event of a simulation where something that remembers follows; a \"sample_hold\" behind it "
-      "makes an encoder that is read at instants, and cheap.");
+      "divisions: 4 for quadrature (all edges of two square signals), thousands for interpolated sine and "
+      "cosine signals, 0 for no quantization. If a block with memory follows, every count is an event of "
+      "the simulation; a \"sample_hold\" after the encoder, as for one that is read at sampling instants, "
+      "makes this much faster.");
   d.remark(
-      "Offsets of the two signals make the errors of once a pitch, unequal amplitudes and a phase other than 90 deg those of "
-      "twice a pitch.");
+      "Offsets of the two signals cause the error with one period per pitch; unequal amplitudes and a "
+      "phase other than 90 deg cause the error with two periods per pitch.");
   d.variation(error, d.type,
               {{"error_cosine", "0"}, {"error_sine", "0"}, {"second_cosine", "0"}, {"second_sine", "0"}});
   d.input(&Counting::In<double>::u, "u", unit, "the position");
-  d.output(&Counting::Out<double>::y, "y", unit, "what the encoder tells");
+  d.output(&Counting::Out<double>::y, "y", unit, "position reading of the encoder");
   d.param(&P::scale, scale, scale_unit, what).positive();
-  d.param(&P::divisions, "divisions", "", "counts per line or pitch; 0 = the position itself")
-      .optional("4")
-      .not_negative();
-  d.param(&P::cosine, "error_cosine", unit, "error of the interpolation once a pitch: cosine").optional("0");
-  d.param(&P::sine, "error_sine", unit, "the same: sine").optional("0");
-  d.param(&P::second_cosine, "second_cosine", unit, "error of the interpolation twice a pitch: cosine").optional("0");
-  d.param(&P::second_sine, "second_sine", unit, "the same: sine").optional("0");
+  d.param(&P::divisions, "divisions", "", "counts per line or pitch; 0 = no quantization").optional("4").not_negative();
+  d.param(&P::cosine, "error_cosine", unit, "interpolation error, one period per pitch: cosine amplitude")
+      .optional("0");
+  d.param(&P::sine, "error_sine", unit, "interpolation error, one period per pitch: sine amplitude").optional("0");
+  d.param(&P::second_cosine, "second_cosine", unit, "interpolation error, two periods per pitch: cosine amplitude")
+      .optional("0");
+  d.param(&P::second_sine, "second_sine", unit, "interpolation error, two periods per pitch: sine amplitude")
+      .optional("0");
 }
 
 }  // namespace
 
 void Encoder::describe(BlockSpec<Encoder>& spec) {
-  spec.name("encoder", "counts of an angle, with the error of their interpolation");
-  describe_counting(spec, "rad", "lines", "", "of the disc, per turn: the pitch is 360 deg/lines",
+  spec.name("encoder", "rotary encoder: quantized angle with interpolation error");
+  describe_counting(spec, "rad", "lines", "", "lines of the disc per revolution: the pitch is 360 deg/lines",
                     "interpolation_error");
 }
 
 void LinearEncoder::describe(BlockSpec<LinearEncoder>& spec) {
-  spec.name("linear_encoder", "counts along a scale, with the error of their interpolation");
-  describe_counting(spec, "m", "pitch", "m", "period of the signals along the scale, e.g. \"20 um\"", "periodic_error");
+  spec.name("linear_encoder", "linear encoder: quantized position with interpolation error");
+  describe_counting(spec, "m", "pitch", "m", "signal period of the scale, e.g. \"20 um\"", "periodic_error");
 }
 
 Kernel encoder_block() { return kernel<Encoder>(); }

@@ -10,10 +10,11 @@ constexpr const char* source_of_motors =
 template <class B>
 void describe_winding(BlockSpec<B>& spec) {
   using P = typename B::template Params<double>;
-  spec.param(&P::resistance, "resistance", "Ohm", "of the winding").positive();
-  spec.param(&P::inductance, "inductance", "H", "of the winding").positive();
-  spec.param(&P::torque_constant, "torque_constant", "N*m/A", "torque per current").positive();
-  spec.param(&P::back_emf, "back_emf", "V*s/rad", "voltage per speed; 0 = the same number in SI as torque_constant")
+  spec.param(&P::resistance, "resistance", "Ohm", "resistance of the winding").positive();
+  spec.param(&P::inductance, "inductance", "H", "inductance of the winding").positive();
+  spec.param(&P::torque_constant, "torque_constant", "N*m/A", "torque constant, torque per current").positive();
+  spec.param(&P::back_emf, "back_emf", "V*s/rad",
+             "back EMF constant, voltage per speed; 0 = equal to torque_constant (in SI units)")
       .optional("0")
       .not_negative();
 }
@@ -21,41 +22,44 @@ void describe_winding(BlockSpec<B>& spec) {
 }  // namespace
 
 void DcMotor::describe(BlockSpec<DcMotor>& spec) {
-  spec.name("dc_motor", "motor with brushes: winding and rotor").in_group("mechanics").linear();
+  spec.name("dc_motor", "brushed DC motor: winding and rotor").in_group("mechanics").linear();
   spec.law(
           "inductance di/dt = voltage - resistance i - back_emf w, inertia dw/dt = torque_constant i - damping w - load, "
           "d angle/dt = w")
       .from(source_of_motors);
-  spec.remark("Of a rotor that is geared, or cogs, take \"dc_winding\" and \"inertia\".");
+  spec.remark(
+      "For a rotor with a gear or with cogging combine \"dc_winding\" with blocks of mechanics, e.g. "
+      "\"inertia\".");
   spec.variation("presliding", "dc_motor_with_presliding",
                  {{"contact_stiffness", "0 N m/rad"}, {"slip_distance", "1 rad"}});
-  spec.input(&In<double>::voltage, "voltage", "V", "at its clamps");
-  spec.input(&In<double>::load, "load", "N*m", "torque that holds it back");
-  spec.state(&State<double>::angle, "angle", "rad", "of the rotor");
-  spec.state(&State<double>::velocity, "velocity", "rad/s", "of the rotor");
-  spec.state(&State<double>::current, "current", "A", "in the winding");
-  spec.output(&Out<double>::angle, "angle", "rad", "of the rotor");
-  spec.output(&Out<double>::velocity, "velocity", "rad/s", "of the rotor");
-  spec.output(&Out<double>::current, "current", "A", "in the winding");
+  spec.input(&In<double>::voltage, "voltage", "V", "voltage at the terminals");
+  spec.input(&In<double>::load, "load", "N*m", "load torque; positive values oppose positive rotation");
+  spec.state(&State<double>::angle, "angle", "rad", "angle of the rotor");
+  spec.state(&State<double>::velocity, "velocity", "rad/s", "angular velocity of the rotor");
+  spec.state(&State<double>::current, "current", "A", "current in the winding");
+  spec.output(&Out<double>::angle, "angle", "rad", "angle of the rotor");
+  spec.output(&Out<double>::velocity, "velocity", "rad/s", "angular velocity of the rotor");
+  spec.output(&Out<double>::current, "current", "A", "current in the winding");
   describe_winding(spec);
-  spec.param(&Params<double>::inertia, "inertia", "kg*m^2", "of the rotor and what turns with it").positive();
-  spec.param(&Params<double>::damping, "damping", "N*m*s/rad", "viscous damping").optional("0").not_negative();
-  spec.param(&Params<double>::initial_angle, "initial_angle", "rad", "angle at the start").optional("0");
-  spec.param(&Params<double>::initial_velocity, "initial_velocity", "rad/s", "velocity at the start").optional("0");
+  spec.param(&Params<double>::inertia, "inertia", "kg*m^2", "inertia of the rotor and of all that turns with it")
+      .positive();
+  spec.param(&Params<double>::damping, "damping", "N*m*s/rad", "viscous friction").optional("0").not_negative();
+  spec.param(&Params<double>::initial_angle, "initial_angle", "rad", "initial angle").optional("0");
+  spec.param(&Params<double>::initial_velocity, "initial_velocity", "rad/s", "initial angular velocity").optional("0");
 }
 
 void DcWinding::describe(BlockSpec<DcWinding>& spec) {
-  spec.name("dc_winding", "winding of a motor with brushes, whose rotor is a block of its own")
+  spec.name("dc_winding", "winding of a brushed DC motor; the rotor is a block of its own")
       .in_group("mechanics")
       .linear();
   spec.law("inductance di/dt = voltage - resistance i - back_emf velocity, torque = torque_constant i")
       .from(source_of_motors);
-  spec.remark("The torque turns an \"inertia\", whose velocity comes back to the winding.");
-  spec.input(&In<double>::voltage, "voltage", "V", "at its clamps");
-  spec.input(&In<double>::velocity, "velocity", "rad/s", "of the rotor");
-  spec.state(&State<double>::current, "current", "A", "in the winding");
-  spec.output(&Out<double>::torque, "torque", "N*m", "on the rotor");
-  spec.output(&Out<double>::current, "current", "A", "in the winding");
+  spec.remark("The torque drives an \"inertia\", whose velocity is fed back to the winding.");
+  spec.input(&In<double>::voltage, "voltage", "V", "voltage at the terminals");
+  spec.input(&In<double>::velocity, "velocity", "rad/s", "angular velocity of the rotor");
+  spec.state(&State<double>::current, "current", "A", "current in the winding");
+  spec.output(&Out<double>::torque, "torque", "N*m", "torque on the rotor");
+  spec.output(&Out<double>::current, "current", "A", "current in the winding");
   describe_winding(spec);
 }
 

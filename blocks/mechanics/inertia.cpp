@@ -3,10 +3,11 @@
 namespace hysteron::blocks {
 
 void Inertia::describe(BlockSpec<Inertia>& spec) {
-  spec.name("inertia", "one inertia that a torque turns, with a damper and maybe a torsion spring").linear();
+  spec.name("inertia", "inertia with damper and torsion spring, driven by a torque").linear();
   spec.law("inertia dw/dt = torque - damping w - stiffness angle, d angle/dt = w").from("Newton's second law");
   spec.remark(
-      "A shaft that turns freely has stiffness 0. Gears, belts and screws: \"gear\", \"belt\", \"ball_screw\".");
+      "A shaft that turns freely has stiffness 0. For transmissions use \"gear\", \"belt\" or "
+      "\"ball_screw\".");
   spec.variation("drag", "inertia_with_drag", {{"drag", "0"}})
       .variation("friction", "inertia_with_friction", {{"coulomb", "0 N m"}, {"breakaway", "0 N m"}})
       .variation("presliding", "inertia_with_presliding",
@@ -17,13 +18,15 @@ void Inertia::describe(BlockSpec<Inertia>& spec) {
 }
 
 void InertiaWithFriction::describe(BlockSpec<InertiaWithFriction>& spec) {
-  spec.name("inertia_with_friction", "one inertia with dry friction that truly sticks, turned by a torque");
+  spec.name("inertia_with_friction", "inertia with dry friction (true sticking), driven by a torque");
   spec.law(
           "sliding: inertia dw/dt = torque - damping w - stiffness angle - sign(w) (coulomb + (breakaway - coulomb) "
           "exp(-|w/stribeck_velocity|^stribeck_exponent)); sticking: w = 0 until |torque - stiffness angle| reaches "
           "breakaway")
       .from("Armstrong-Helouvry, Dupont, Canudas de Wit, Automatica 30 (1994) 1083-1138");
-  spec.remark("Three modes: sticking, turning forwards, backwards. coulomb and breakaway 0 give inertia.");
+  spec.remark(
+      "Three modes: sticking, turning forwards, turning backwards. With coulomb and breakaway 0 the block "
+      "equals inertia.");
   describe_motion(spec, rotation).optional("0");
   describe_dry_friction(spec, rotation);
   describe_start(spec, rotation);
@@ -31,7 +34,7 @@ void InertiaWithFriction::describe(BlockSpec<InertiaWithFriction>& spec) {
 }
 
 void InertiaWithDrag::describe(BlockSpec<InertiaWithDrag>& spec) {
-  spec.name("inertia_with_drag", "one inertia with a fan or a propeller, turned by a torque");
+  spec.name("inertia_with_drag", "inertia with quadratic drag (fan, propeller), driven by a torque");
   spec.law("inertia dw/dt = torque - damping w - drag w |w| - stiffness angle, d angle/dt = w")
       .from("Batchelor, An Introduction to Fluid Dynamics (1967), section 5.11");
   describe_motion(spec, rotation).optional("0");
@@ -42,42 +45,46 @@ void InertiaWithDrag::describe(BlockSpec<InertiaWithDrag>& spec) {
 }
 
 void InertiaWithPresliding::describe(Declaration& d) {
-  d.name("inertia_with_presliding", "one inertia in bearings that stick and slip, turned by a torque");
+  d.name("inertia_with_presliding", "inertia with presliding bearing friction, driven by a torque");
   d.law(
        "inertia dw/dt = torque - damping w - stiffness angle - sum contact_stiffness_i (z_i + contact_time dz_i/dt), d "
        "angle/dt = w, dz_i/dt = w - |w| z_i/(slip_distance_i (1 + excess exp(-(w/stribeck_velocity)^2)))")
       .from("Dahl, AIAA J. 14 (1976) 1675-1682, and as mass_with_presliding");
-  d.remark("The friction of an element is contact_stiffness times slip_distance, a torque.");
-  d.remark("Unlike inertia_with_friction it gives way a little before it turns, and it never sticks for good.");
+  d.remark("The friction torque of an element is contact_stiffness times slip_distance.");
+  d.remark(
+      "Unlike inertia_with_friction it yields elastically before it turns, and under a vibrating torque it "
+      "drifts instead of sticking.");
   describe_elements(d, rotation);
   describe_contact_time(d);
 }
 
 void InertiaWithCogging::describe(BlockSpec<InertiaWithCogging>& spec) {
-  spec.name("inertia_with_cogging", "one inertia that magnets draw to certain angles, turned by a torque");
+  spec.name("inertia_with_cogging", "inertia with cogging torque, driven by a torque");
   spec.law(
           "inertia dw/dt = torque + cosine cos(periods angle) + sine sin(periods angle) - damping w - stiffness angle, "
           "d angle/dt = w")
       .from("Hanselman, Brushless Permanent Magnet Motor Design, 2nd ed. (2003), chapter 8");
-  spec.remark("periods: the least common multiple of slots and poles, or, of a ripple of torque, what is seen.");
+  spec.remark(
+      "periods: the least common multiple of the numbers of slots and poles; for other torque ripple the "
+      "measured number per turn.");
   describe_motion(spec, rotation).optional("0");
-  spec.param(&Params<double>::cosine, "cosine", "N*m", "of the torque of the teeth, at angle 0");
-  spec.param(&Params<double>::sine, "sine", "N*m", "of it, a quarter of a period further on");
-  spec.param(&Params<double>::again, "periods", "", "of it in a turn").positive();
+  spec.param(&Params<double>::cosine, "cosine", "N*m", "cosine amplitude of the cogging torque (its value at angle 0)");
+  spec.param(&Params<double>::sine, "sine", "N*m", "sine amplitude of the cogging torque");
+  spec.param(&Params<double>::again, "periods", "", "periods of the cogging torque per turn").positive();
   describe_start(spec, rotation);
 }
 
 void MassWithCogging::describe(BlockSpec<MassWithCogging>& spec) {
-  spec.name("mass_with_cogging", "one mass that magnets draw to certain positions, driven by a force");
+  spec.name("mass_with_cogging", "mass with cogging force, driven by a force");
   spec.law(
           "mass dv/dt = force + cosine cos(2 pi x/period) + sine sin(2 pi x/period) - damping v - stiffness x, dx/dt = "
           "v")
       .from("Gieras, Piech, Tomczuk, Linear Synchronous Motors, 2nd ed. (2011), section 3.3");
-  spec.remark("Of a linear motor with iron; period: the pitch of its magnets, or what is seen.");
+  spec.remark("For an iron-core linear motor; period: the pitch of its magnets, or the measured one.");
   describe_motion(spec, translation).optional("0");
-  spec.param(&Params<double>::cosine, "cosine", "N", "of the force of the magnets, at position 0");
-  spec.param(&Params<double>::sine, "sine", "N", "of it, a quarter of a period further on");
-  spec.param(&Params<double>::again, "period", "m", "after which it comes again").positive();
+  spec.param(&Params<double>::cosine, "cosine", "N", "cosine amplitude of the cogging force (its value at position 0)");
+  spec.param(&Params<double>::sine, "sine", "N", "sine amplitude of the cogging force");
+  spec.param(&Params<double>::again, "period", "m", "period of the cogging force along the position").positive();
   describe_start(spec, translation);
 }
 

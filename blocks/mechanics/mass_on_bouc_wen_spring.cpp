@@ -5,21 +5,27 @@
 namespace hysteron::blocks {
 
 void MassOnBoucWenSpring::describe(Declaration& d) {
-  d.name("mass_on_bouc_wen_spring", "one mass on a spring with Bouc-Wen hysteresis, driven by a force");
+  d.name("mass_on_bouc_wen_spring", "mass on a spring with Bouc-Wen hysteresis, driven by a force");
   d.law(
        "mass dv/dt = force - damping v - (1 - hysteretic_share) stiffness x - z, dx/dt = v, dz/dt = hysteretic_share "
        "stiffness v - (beta |v| z + gamma v |z|)")
       .from(
           "Wen, J. Eng. Mech. Div. ASCE 102 (1976) 249-263; Noel, Schoukens, Hysteretic benchmark with a dynamic "
           "nonlinearity, Workshop on Nonlinear System Identification Benchmarks (2016)");
-  d.remark("beta makes the loop; beta + gamma above zero softens it, below zero it hardens with the travel.");
-  d.remark("hysteretic_share 0 gives mass_spring_damper. Elements that yield: mass_on_hysteretic_spring.");
+  d.remark(
+      "beta sets the width of the loop; the spring softens with the travel for beta + gamma above 0 and "
+      "hardens below 0.");
+  d.remark(
+      "With hysteretic_share 0 the block equals mass_spring_damper. For a spring of elastic-plastic "
+      "elements use mass_on_hysteretic_spring.");
   describe_motion(d);
-  d.state("held_back", "N", "what the law holds back");
-  d.parameter("hysteretic_share", "", "of the stiffness: what of it remembers").optional("0").not_negative().maximum =
-      1;
-  d.parameter("beta", "1/m", "loop shape, dissipative part").optional("0 1/m").not_negative();
-  d.parameter("gamma", "1/m", "loop shape, conservative part").optional("0 1/m");
+  d.state("held_back", "N", "hysteretic force z");
+  d.parameter("hysteretic_share", "", "hysteretic fraction of the stiffness, 0 .. 1")
+      .optional("0")
+      .not_negative()
+      .maximum = 1;
+  d.parameter("beta", "1/m", "loop shape: dissipative term beta |v| z").optional("0 1/m").not_negative();
+  d.parameter("gamma", "1/m", "loop shape: conservative term gamma v |z|").optional("0 1/m");
   describe_start(d);
   describe_beyond_linear(d);
 }

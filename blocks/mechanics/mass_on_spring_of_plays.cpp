@@ -8,8 +8,7 @@
 namespace hysteron::blocks {
 
 void MassOnSpringOfPlays::describe(Declaration& d) {
-  d.name("mass_on_spring_of_plays",
-         "one mass on a spring that remembers turning points, unevenly over its travel, driven by a force");
+  d.name("mass_on_spring_of_plays", "mass on a spring with Preisach hysteresis, driven by a force");
   d.law(
        "mass dv/dt = force - damping v - stiffness x + sum integral of k_i from 0 to w_i; w_i the two-sided play of x "
        "with thresholds[i]; k_i(w) = (1-p)^2 at_lower[i] + 2 p (1-p) in_middle[i] + p^2 at_upper[i], p = (w - "
@@ -17,22 +16,30 @@ void MassOnSpringOfPlays::describe(Declaration& d) {
       .from(
           "Brokate, Sprekels, Hysteresis and Phase Transitions (1996), chapter 2: Preisach's relays as a "
           "superposition of plays");
-  d.remark("A way that a play does not follow is held by the whole stiffness, one that it follows by so much less.");
   d.remark(
-      "Of elements that are equally strong everywhere mass_on_hysteretic_spring needs fewer numbers; domains and "
-      "grains are not.");
-  d.remark("Plays come to be carried along over a twentieth of their half width: corners that an integrator can pass.");
-  d.remark("Strengths of 0 give mass_spring_damper.");
+      "After a reversal the full stiffness acts; each play that begins to follow the motion reduces it by "
+      "k_i.");
+  d.remark(
+      "If the elements are equally strong over the whole travel, mass_on_hysteretic_spring needs fewer "
+      "parameters; those of domains and grains are not.");
+  d.remark(
+      "The kink at which a play begins to follow is smoothed over a twentieth of its half width, for the "
+      "integrator.");
+  d.remark("With at_lower, in_middle and at_upper 0 the block equals mass_spring_damper.");
   describe_motion(d);
-  d.state("plays", "m", "where each play stands");
-  d.list("thresholds", "m", "half the width of each play").positive().difference();
-  d.list("at_lower", "N/m", "by how much each play softens the spring at the lower end of the travel")
+  d.state("plays", "m", "output w_i of each play");
+  d.list("thresholds", "m", "half width (threshold) of each play operator").positive().difference();
+  d.list("at_lower", "N/m", "reduction of stiffness by each play at the lower end of the travel")
       .not_negative()
       .as_long_as("thresholds");
-  d.list("in_middle", "N/m", "the same in the middle").not_negative().as_long_as("thresholds");
-  d.list("at_upper", "N/m", "the same at the upper end").not_negative().as_long_as("thresholds");
-  d.parameter("lower", "m", "lower end of the travel; beyond, the plays are as strong as there");
-  d.parameter("upper", "m", "its upper end");
+  d.list("in_middle", "N/m", "reduction of stiffness by each play in the middle of the travel")
+      .not_negative()
+      .as_long_as("thresholds");
+  d.list("at_upper", "N/m", "reduction of stiffness by each play at the upper end of the travel")
+      .not_negative()
+      .as_long_as("thresholds");
+  d.parameter("lower", "m", "lower end of the travel; beyond it the values of that end hold");
+  d.parameter("upper", "m", "upper end of the travel; beyond it the values of that end hold");
   describe_start(d);
   describe_beyond_linear(d);
 }
@@ -52,7 +59,7 @@ Sizes MassOnSpringOfPlays::sizes(const Shape& shape) {
 
 std::string MassOnSpringOfPlays::check(const View<double>& v) {
   if (v.parameter(lower) < v.parameter(upper)) return "";
-  return fmt::format("lower is {:.4g} m and upper {:.4g} m: no travel lies between; write the smaller one as \"lower\"",
+  return fmt::format("lower ({:.4g} m) is not below upper ({:.4g} m); write the smaller one as \"lower\"",
                      v.parameter(lower), v.parameter(upper));
 }
 

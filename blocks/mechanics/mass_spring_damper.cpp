@@ -16,9 +16,11 @@ void describe_memories(Declaration& d) {
 }  // namespace
 
 void MassSpringDamper::describe(BlockSpec<MassSpringDamper>& spec) {
-  spec.name("mass_spring_damper", "one mass on a spring with a damper, driven by a force").linear();
+  spec.name("mass_spring_damper", "mass on a spring with a damper, driven by a force").linear();
   spec.law("mass dv/dt = force - damping v - stiffness x, dx/dt = v").from("Newton's second law");
-  spec.remark("A piezo actuator of free displacement d is the force stiffness d, with its own stiffness counted in.");
+  spec.remark(
+      "A piezo actuator of free displacement d acts as the force k_a d, where its stiffness k_a is "
+      "included in \"stiffness\".");
   spec.variation("stiffening", "mass_on_stiffening_spring", {{"stiffening", "0"}})
       .variation("drag", "mass_with_drag", {{"drag", "0"}})
       .variation("friction", "mass_with_friction", {{"coulomb", "0 N"}, {"breakaway", "0 N"}})
@@ -31,19 +33,19 @@ void MassSpringDamper::describe(BlockSpec<MassSpringDamper>& spec) {
 }
 
 void MassOnStiffeningSpring::describe(BlockSpec<MassOnStiffeningSpring>& spec) {
-  spec.name("mass_on_stiffening_spring", "one mass on a spring with a cubic part, driven by a force");
+  spec.name("mass_on_stiffening_spring", "mass on a nonlinear spring (Duffing), driven by a force");
   spec.law(
           "mass dv/dt = force - damping v - drag v |v| - stiffness x - quadratic x^2 - stiffening x^3 - quintic x^5, "
           "dx/dt = v")
       .from("Duffing's oscillator; Nayfeh, Mook, Nonlinear Oscillations (1979)");
   spec.remark(
-      "stiffening 0 gives mass_spring_damper. Negative values soften: then keep x below sqrt(stiffness/(3 "
-      "|stiffening|)).");
+      "With stiffening 0 the block equals mass_spring_damper. Negative values soften the spring: then keep "
+      "|x| below sqrt(stiffness/(3 |stiffening|)).");
   describe_motion(spec);
-  spec.param(&Params<double>::stiffening, "stiffening", "N/m^3", "cubic part of the spring").optional("0");
-  spec.param(&Params<double>::quadratic, "quadratic", "N/m^2", "part by which it is harder one way than the other")
+  spec.param(&Params<double>::stiffening, "stiffening", "N/m^3", "cubic stiffness; negative = softening").optional("0");
+  spec.param(&Params<double>::quadratic, "quadratic", "N/m^2", "quadratic stiffness, which makes the spring asymmetric")
       .optional("0");
-  spec.param(&Params<double>::quintic, "quintic", "N/m^5", "part of large travel").optional("0");
+  spec.param(&Params<double>::quintic, "quintic", "N/m^5", "fifth-order stiffness").optional("0");
   describe_drag(spec);
   spec.variation("drag", "mass_on_stiffening_spring", {{"drag", "0"}});
   describe_memories(spec);
@@ -51,7 +53,7 @@ void MassOnStiffeningSpring::describe(BlockSpec<MassOnStiffeningSpring>& spec) {
 }
 
 void MassWithDrag::describe(BlockSpec<MassWithDrag>& spec) {
-  spec.name("mass_with_drag", "one mass on a spring in a fast flow, driven by a force");
+  spec.name("mass_with_drag", "mass on a spring with quadratic drag, driven by a force");
   spec.law("mass dv/dt = force - damping v - drag v |v| - stiffness x, dx/dt = v")
       .from("Batchelor, An Introduction to Fluid Dynamics (1967), section 5.11");
   describe_motion(spec);
@@ -70,22 +72,24 @@ ParameterDeclaration& describe_motion(Declaration& d, const MotionWords& words) 
   d.state("velocity", words.speed_unit(), "velocity");
   d.parameter(words.body, words.body_unit, std::string("moving ") + words.body).positive();
   d.parameter("damping", words.damping_unit(), "viscous damping").optional("0").not_negative();
-  return d.parameter("stiffness", words.per_place(), "spring to the ground, 0 = none").not_negative();
+  return d.parameter("stiffness", words.per_place(), "stiffness of the spring to ground; 0 = none").not_negative();
 }
 void describe_start(Declaration& d, const MotionWords& words) {
-  d.parameter(std::string("initial_") + words.place, words.place_unit, std::string(words.place) + " at the start")
+  d.parameter(std::string("initial_") + words.place, words.place_unit, std::string("initial ") + words.place)
       .optional("0");
-  d.parameter("initial_velocity", words.speed_unit(), "velocity at the start").optional("0");
+  d.parameter("initial_velocity", words.speed_unit(), "initial velocity").optional("0");
 }
 ParameterDeclaration& describe_drag(Declaration& d, const MotionWords& words) {
-  return d.parameter("drag", words.drag_unit(), "drag over the square of the speed").optional("0").not_negative();
+  return d.parameter("drag", words.drag_unit(), "drag coefficient: drag per squared speed")
+      .optional("0")
+      .not_negative();
 }
 void describe_beyond_linear(Declaration& d, const MotionWords& words) {
-  d.parameter("stiffening", words.per_place(3), "cubic part of the spring").optional("0");
-  d.parameter("quadratic", words.per_place(2), "part by which it is harder one way than the other").optional("0");
-  d.parameter("quintic", words.per_place(5), "part of large travel").optional("0");
+  d.parameter("stiffening", words.per_place(3), "cubic stiffness; negative = softening").optional("0");
+  d.parameter("quadratic", words.per_place(2), "quadratic stiffness, which makes the spring asymmetric").optional("0");
+  d.parameter("quintic", words.per_place(5), "fifth-order stiffness").optional("0");
   describe_drag(d, words);
-  d.remark("The spring may stiffen and a fluid hold it as in mass_on_stiffening_spring.");
+  d.remark("Nonlinear stiffness and drag act as in mass_on_stiffening_spring.");
   d.variation("stiffening", d.type, {{"stiffening", "0"}}).variation("drag", d.type, {{"drag", "0"}});
 }
 

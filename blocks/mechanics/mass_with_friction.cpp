@@ -5,16 +5,16 @@
 namespace hysteron::blocks {
 
 void MassWithFriction::describe(BlockSpec<MassWithFriction>& spec) {
-  spec.name("mass_with_friction", "one mass with dry friction that truly sticks, driven by a force");
+  spec.name("mass_with_friction", "mass with dry friction (true sticking), driven by a force");
   spec.law(
           "sliding: mass dv/dt = force - damping v - stiffness x - sign(v) (coulomb + (breakaway - coulomb) "
           "exp(-|v/stribeck_velocity|^stribeck_exponent)); sticking: v = 0 until |force - stiffness x| reaches "
           "breakaway")
       .from("Armstrong-Helouvry, Dupont, Canudas de Wit, Automatica 30 (1994) 1083-1138");
+  spec.remark("Three modes: sticking, sliding forwards, sliding backwards. A sticking mass does not creep.");
   spec.remark(
-      "Three modes: sticking, sliding up, sliding down. A sticking mass does not creep, however long it sticks.");
-  spec.remark(
-      "coulomb and breakaway 0 give mass_spring_damper. Presliding (a spring-like contact) is not in this law.");
+      "With coulomb and breakaway 0 the block equals mass_spring_damper. Presliding (elastic contact) is "
+      "not included.");
   describe_motion(spec).optional("0");
   describe_dry_friction(spec);
   describe_start(spec);
@@ -22,28 +22,27 @@ void MassWithFriction::describe(BlockSpec<MassWithFriction>& spec) {
 }
 
 void describe_dry_friction(Declaration& d, const MotionWords& words) {
-  d.parameter("coulomb", words.cause_unit, "dry friction of fast sliding").not_negative();
+  d.parameter("coulomb", words.cause_unit, "Coulomb friction (at high speed)").not_negative();
   d.parameter("breakaway", words.cause_unit,
               std::string(words.cause) + " at which sticking ends, at least coulomb; 0 = coulomb (1 + excess)")
       .optional("0")
       .not_negative();
-  d.parameter("stribeck_velocity", words.speed_unit(), "over which breakaway falls to coulomb; 0 = at once")
+  d.parameter("stribeck_velocity", words.speed_unit(),
+              "Stribeck velocity, over which the friction falls from breakaway to coulomb; 0 = at once")
       .optional("0")
       .not_negative();
-  d.parameter("rest_speed", words.speed_unit(), "a slower turn of the motion counts as standing still")
+  d.parameter("rest_speed", words.speed_unit(), "speed below which a reversal of motion counts as standing still")
       .optional(std::string("1 n") + words.speed_unit())
       .positive();
-  d.parameter("excess", "", "breakaway over coulomb, less one, where breakaway is not given")
-      .optional("0")
-      .not_negative();
-  d.parameter("stribeck_exponent", "", "of the speed by which breakaway falls: 2 = Gauss's bell, 1 = an exponential")
+  d.parameter("excess", "", "breakaway/coulomb - 1, used if breakaway is 0").optional("0").not_negative();
+  d.parameter("stribeck_exponent", "", "exponent of the Stribeck curve: 2 = Gaussian, 1 = exponential")
       .optional("2")
       .positive();
 }
 
 std::string MassWithFriction::check(const Params<double>& p) {
   if (p.breakaway >= p.coulomb || p.breakaway == 0) return "";
-  return "breakaway, {breakaway}, is below coulomb, {coulomb}; give at least coulomb, or none";
+  return "breakaway, {breakaway}, is below coulomb, {coulomb}; give at least coulomb, or leave it out";
 }
 
 Kernel mass_with_friction_block() { return kernel<MassWithFriction>(); }

@@ -5,19 +5,23 @@
 namespace hysteron::blocks {
 
 void MassWithMode::describe(Declaration& d) {
-  d.name("mass_with_mode", "one mass on a spring that carries a second one, driven by a force").linear();
+  d.name("mass_with_mode", "mass on a spring that carries a second mass, driven by a force").linear();
   d.law(
        "mass dv/dt = force - damping v - stiffness x - share mass q'', dx/dt = v, q'' = w^2 (x - q) + 2 mode_damping w "
        "(v - q'), w = 2 pi frequency")
       .from("two masses in a row; Den Hartog, Mechanical Vibrations, 4th ed. (1956), chapter 3 (absorber)");
-  d.remark("share 0 gives mass_spring_damper: the second mass rides along and is not felt.");
-  d.remark("frequency is that of the second mass while the first is held, not of both together.");
+  d.remark("With share 0 the block equals mass_spring_damper: the second mass does not react on the first.");
+  d.remark(
+      "frequency is that of the second mass with the first one fixed, not a natural frequency of both "
+      "together.");
   describe_motion(d);
   d.state("mode_position", "m", "position of the second mass");
-  d.state("mode_rate", "m", "its velocity over w");
-  d.parameter("share", "", "second mass over the first").not_negative();
-  d.parameter("frequency", "Hz", "of the second mass on the first, held").positive();
-  d.parameter("mode_damping", "", "damping ratio of the second mass").optional("0.01").not_negative();
+  d.state("mode_rate", "m", "velocity of the second mass over w");
+  d.parameter("share", "", "mass ratio: second mass over first mass").not_negative();
+  d.parameter("frequency", "Hz", "natural frequency of the second mass with the first one fixed").positive();
+  d.parameter("mode_damping", "", "damping ratio of the second mass with the first one fixed")
+      .optional("0.01")
+      .not_negative();
   describe_start(d);
 }
 

@@ -10,14 +10,14 @@ void describe_contacts(Declaration& d, const MotionWords& words) {
   d.state("deflection", words.place_unit, "deflection of each element");
   d.list("contact_stiffness", words.per_place(), "stiffness of each element while it sticks").not_negative();
   d.list("slip_distance", words.place_unit,
-         "deflection at which each element slips; its friction is stiffness times distance")
+         "deflection at which each element slips; its friction is contact_stiffness times slip_distance")
       .positive()
       .difference()
       .as_long_as("contact_stiffness");
-  d.parameter("excess", "", "by how much more it holds before it slides fast, over its friction")
+  d.parameter("excess", "", "Stribeck effect: friction at low speed over Coulomb friction, minus 1")
       .optional("0")
       .not_negative();
-  d.parameter("stribeck_velocity", words.speed_unit(), "speed at which that is gone")
+  d.parameter("stribeck_velocity", words.speed_unit(), "Stribeck velocity: speed over which the excess decays")
       .optional("1 " + words.speed_unit())
       .positive();
 }
@@ -31,35 +31,39 @@ void describe_elements(Declaration& d, const MotionWords& words) {
 }
 
 void describe_contact_time(Declaration& d) {
-  d.parameter("contact_time", "s", "damping of a contact over its stiffness; gone where it slides")
+  d.parameter("contact_time", "s", "damping of a contact divided by its stiffness; acts while it sticks")
       .optional("0 s")
       .not_negative();
 }
 
 template <>
 void MassWithElements<DahlElement>::describe(Declaration& d) {
-  d.name("mass_with_presliding", "one mass on a spring beside which elements stick and slip, driven by a force");
+  d.name("mass_with_presliding", "mass on a spring with presliding friction, driven by a force");
   d.law(
        "mass dv/dt = force - damping v - stiffness x - sum contact_stiffness_i (z_i + contact_time dz_i/dt), dx/dt = "
        "v, dz_i/dt = v - |v| z_i/(slip_distance_i (1 + excess exp(-(v/stribeck_velocity)^2)))")
       .from(
           "Dahl, AIAA J. 14 (1976) 1675-1682; several elements: Lampaert, Al-Bender, Swevers, PhysCon (2003) "
           "1170-1178; excess and contact_time: Canudas de Wit et al., IEEE Trans. Autom. Control 40 (1995) 419-425");
-  d.remark("One element is a guide with friction.");
-  d.remark("Unlike mass_with_friction it gives way a little before it slides, and it never sticks for good.");
+  d.remark("One element is enough for a guide with friction.");
+  d.remark(
+      "Unlike mass_with_friction it yields elastically before it slides, and under a vibrating force it "
+      "drifts instead of sticking.");
   describe_elements(d);
   describe_contact_time(d);
 }
 
 template <>
 void MassWithElements<SlipElement>::describe(Declaration& d) {
-  d.name("mass_on_hysteretic_spring", "one mass on a spring that remembers turning points, driven by a force");
+  d.name("mass_on_hysteretic_spring", "mass on a spring with rate-independent hysteresis, driven by a force");
   d.law(
        "mass dv/dt = force - damping v - stiffness x - sum contact_stiffness_i z_i, dx/dt = v, dz_i/dt = v (1 - "
        "(z_i/slip_distance_i)^4) while v z_i > 0, else v; excess as in mass_with_presliding")
       .from("Iwan, J. Appl. Mech. 33 (1966) 893-900: elements that yield, in parallel");
-  d.remark("Several elements, soft and stiff ones, nearly close their loops at turning points, as plays do.");
-  d.remark("contact_stiffness 0 gives mass_spring_damper.");
+  d.remark(
+      "With several elements, soft and stiff ones, minor loops nearly close at their turning points, as "
+      "with play operators.");
+  d.remark("With contact_stiffness 0 the block equals mass_spring_damper.");
   describe_elements(d);
 }
 

@@ -5,22 +5,24 @@
 namespace hysteron::blocks {
 
 void MassWithStops::describe(BlockSpec<MassWithStops>& spec) {
-  spec.name("mass_with_stops", "one mass between two hard stops, driven by a force");
+  spec.name("mass_with_stops", "mass between two hard stops, driven by a force");
   spec.law(
-          "free: mass dv/dt = force - damping v - stiffness x; at lower or upper: v after = -restitution v before; it "
-          "lies "
-          "at the stop while the force presses")
+          "free: mass dv/dt = force - damping v - stiffness x; at lower or upper: v after = -restitution v "
+          "before; the mass rests at the stop while the force presses it there")
       .from("Newton's law of restitution; Brogliato, Nonsmooth Mechanics, 3rd ed. (2016)");
-  spec.remark("Impacts are located. A rebound not above rest_speed is none: it ends the series of ever smaller ones.");
-  spec.remark("Stops out of reach give mass_spring_damper.");
+  spec.remark(
+      "The instants of impact are located. A rebound not faster than rest_speed is set to zero, which ends "
+      "a series of decreasing rebounds.");
+  spec.remark("With stops out of reach the block equals mass_spring_damper.");
   describe_motion(spec).optional("0");
-  spec.param(&Params<double>::lower, "lower", "m", "lower stop");
-  spec.param(&Params<double>::upper, "upper", "m", "upper stop");
-  spec.param(&Params<double>::restitution, "restitution", "", "speed after over speed before an impact")
+  spec.param(&Params<double>::lower, "lower", "m", "position of the lower stop");
+  spec.param(&Params<double>::upper, "upper", "m", "position of the upper stop");
+  spec.param(&Params<double>::restitution, "restitution", "",
+             "coefficient of restitution: speed after over speed before an impact")
       .optional("0")
       .not_negative()
       .maximum = 1;
-  spec.param(&Params<double>::rest_speed, "rest_speed", "m/s", "a slower rebound is none")
+  spec.param(&Params<double>::rest_speed, "rest_speed", "m/s", "speed below which a rebound is set to zero")
       .optional("1 um/s")
       .positive();
   describe_start(spec);

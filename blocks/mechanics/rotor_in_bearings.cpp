@@ -19,9 +19,11 @@ void describe_in_bearings(Declaration& d, const std::string& what) {
         ", braked by the torque sum contact_stiffness_i (z_i + contact_time dz_i/dt), dz_i/dt = w - |w| "
         "z_i/(slip_distance_i (1 + excess exp(-(w/stribeck_velocity)^2))), w its speed")
       .from("Dahl, AIAA J. 14 (1976) 1675-1682, and as mass_with_presliding; " + body.source);
-  d.remark("The friction of an element is contact_stiffness times slip_distance, a torque.");
-  d.remark("It gives way a little before it turns, and never sticks for good. contact_stiffness 0 gives " + body.type +
-           ".");
+  d.remark("The friction torque of an element is contact_stiffness times slip_distance.");
+  d.remark(
+      "It yields elastically before it turns, and under a vibrating torque it drifts instead of sticking. "
+      "With contact_stiffness 0 the block equals " +
+      body.type + ".");
   describe_contacts(d, rotation);
   describe_contact_time(d);
 }
@@ -30,11 +32,11 @@ void describe_in_bearings(Declaration& d, const std::string& what) {
 
 template <>
 void RotorInBearings<DcMotor>::describe(Declaration& d) {
-  describe_in_bearings<DcMotor>(d, "motor with brushes in bearings that stick and slip");
+  describe_in_bearings<DcMotor>(d, "brushed DC motor with presliding bearing friction");
 }
 template <>
 void RotorInBearings<Pendulum>::describe(Declaration& d) {
-  describe_in_bearings<Pendulum>(d, "mass on an arm under gravity, on a pivot that sticks and slips");
+  describe_in_bearings<Pendulum>(d, "pendulum with presliding friction at the pivot");
 }
 
 template <class Body>

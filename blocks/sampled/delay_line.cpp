@@ -5,14 +5,14 @@
 namespace hysteron::blocks {
 
 void DelayLine::describe(Declaration& d) {
-  d.name("delay_line", "its input, a whole number of samples later").in_group("sampled").elementwise().linear();
+  d.name("delay_line", "delays its input by a whole number of samples").in_group("sampled").elementwise().linear();
   d.law("y_k = u_(k - samples)").from("definition");
-  d.remark("For a delay of any length use dead_time; one sample of computing time is \"samples\": 1.");
+  d.remark("For a delay of any length use \"dead_time\". A computation delay of one sample is \"samples\": 1.");
   d.input("u", "$a", "the signal");
-  d.output("y", "$a", "the signal, later");
-  d.state("line", "$a", "the samples on their way, oldest first");
-  d.parameter("samples", "", "how many samples later").structural().not_negative();
-  d.parameter("before", "$a", "what came before the first instant").optional("0");
+  d.output("y", "$a", "the delayed signal");
+  d.state("line", "$a", "the stored samples, oldest first");
+  d.parameter("samples", "", "delay, in samples").structural().not_negative();
+  d.parameter("before", "$a", "value of the input before the first instant").optional("0");
   d.sampled();
 }
 

@@ -3,27 +3,28 @@
 namespace hysteron::blocks {
 
 void DiscreteTransferFunction::describe(Declaration& d) {
-  d.name("discrete_transfer_function", "ratio of two polynomials in z^-1, run at its instants")
+  d.name("discrete_transfer_function", "discrete transfer function: ratio of two polynomials in z^-1")
       .in_group("sampled")
       .elementwise()
       .linear();
   d.law("Y/U = gain (num[1] + num[2] z^-1 + ...)/(den[1] + den[2] z^-1 + ...); direct \"no\": num[1] belongs to z^-1")
       .from(
           "Oppenheim, Schafer, Discrete-Time Signal Processing, 3rd ed. (2010), chapter 6 (direct form II transposed)");
-  d.remark("Coefficients are plain numbers, the present sample first. The unit stands at the gain.");
   d.remark(
-      "direct \"no\": the output at an instant does not need the input at that instant, so a loop of sampled blocks "
-      "can be "
-      "closed around it.");
-  d.remark("The output is held between the instants.");
+      "Coefficients are plain numbers, that of the present sample (z^0) first. The unit of the block is "
+      "that of its gain.");
+  d.remark(
+      "With \"direct\": \"no\" there is no direct feedthrough, so a loop of sampled blocks can be closed "
+      "around it.");
+  d.remark("The output is held between the sampling instants.");
   d.input("u", "$a", "the input");
   d.output("y", "$b", "the response");
   d.state("w", "$a", "states of the direct form");
-  d.parameter("gain", "$b/$a", "factor, carries the unit").optional("1").linear();
+  d.parameter("gain", "$b/$a", "factor on num/den; carries the unit").optional("1").linear();
   d.list("num", "", "numerator, present sample first");
   d.list("den", "", "denominator, present sample first");
-  d.text("direct", {"yes", "no"}, "does the output at an instant depend on the input at that instant");
-  d.parameter("before", "$a", "constant input before the first instant").optional("0");
+  d.text("direct", {"yes", "no"}, "direct feedthrough: whether the output depends on the input of the same instant");
+  d.parameter("before", "$a", "constant input before the first instant, for the initial states").optional("0");
   d.sampled();
 }
 
@@ -42,7 +43,7 @@ Sizes DiscreteTransferFunction::sizes(const Shape& shape) {
 }
 
 std::string DiscreteTransferFunction::check(const View<double>& v) {
-  if (v.list(den)[0] == 0) return "the first coefficient of \"den\" is zero; leave it out, and shorten \"num\" alike";
+  if (v.list(den)[0] == 0) return "the first coefficient of \"den\" is zero; leave it out, and shorten \"num\" as well";
   return "";
 }
 

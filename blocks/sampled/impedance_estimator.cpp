@@ -8,7 +8,7 @@
 namespace hysteron::blocks {
 
 void ImpedanceEstimator::describe(Declaration& d) {
-  d.name("impedance_estimator", "capacitance and polarisation of a stack from a ripple on its voltage")
+  d.name("impedance_estimator", "capacitance and polarisation of a piezo stack from a voltage ripple")
       .in_group("sampled");
   d.law(
        "per window: phasors (A, B) of voltage and current by least squares of 1, t, cos, sin; C = -(A_I^2 + "
@@ -17,38 +17,41 @@ void ImpedanceEstimator::describe(Declaration& d) {
        "- eps_0) dE, E = voltage/d")
       .from("thesis Eqs. 3.5 to 3.8; the joint fit and the integral stand in place of a Fourier bin and of the secant");
   d.remark(
-      "A window has a whole number of ripples: 200 samples of 0.1 ms with \"cycles\": 1 are for 50 Hz. Outputs are "
-      "those "
-      "of the last full window, zero before there is one.");
+      "A window holds a whole number of ripple periods: 200 samples of 0.1 ms with \"cycles\": 1 suit a "
+      "ripple of 50 Hz. The outputs are those of the last complete window, and zero before the first one "
+      "is complete.");
   d.remark(
-      "A ripple measures the incremental capacitance. The secant formula of the thesis is right for a linear material "
-      "only: in a loop of hysteresis its polarisation turns the wrong way round; the integral does not.");
+      "The ripple measures the incremental capacitance. The secant formula of the thesis is valid for a "
+      "linear material only: for hysteresis it gives a loop with the wrong direction; the integral does "
+      "not.");
   d.remark(
-      "A ripple steeper than the drive reverses the field twice in each cycle and lets a Jiles-Atherton material creep "
-      "towards its curve without pinning.");
+      "A ripple that is steeper than the drive reverses the field twice per cycle and makes a "
+      "Jiles-Atherton material drift towards its anhysteretic curve.");
   d.remark(
-      "phasors \"fourier\", as the thesis takes them, count the ramp of the drive as a ripple and make false loops.");
-  d.input("voltage", "V", "across the stack, ripple included");
-  d.input("current", "A", "into the stack");
+      "With \"phasors\": \"fourier\", the method of the thesis, the ramp of the drive leaks into the "
+      "ripple and causes false loops.");
+  d.input("voltage", "V", "voltage across the stack, ripple included");
+  d.input("current", "A", "current into the stack");
   d.output("capacitance", "F", "incremental capacitance of the stack");
-  d.output("voltage", "V", "mean over the window");
+  d.output("voltage", "V", "mean voltage over the window");
   d.output("secant", "C/m^2", "polarisation by the secant formula");
   d.output("polarisation", "C/m^2", "polarisation by the integral");
-  d.state("voltage_a", "V", "phasor of the voltage so far, in phase with the middle of the window");
-  d.state("voltage_b", "V", "phasor of the voltage so far, a quarter ahead");
-  d.state("current_a", "A", "phasor of the current so far, in phase");
-  d.state("current_b", "A", "phasor of the current so far, a quarter ahead");
-  d.state("sum", "V", "sum of the voltages so far");
-  d.state("capacitance", "F", "of the last window");
-  d.state("mean", "V", "voltage of the last window");
-  d.state("polarisation", "C/m^2", "by the integral, up to the last window");
+  d.state("voltage_a", "V", "voltage phasor accumulated so far, in phase with the middle of the window");
+  d.state("voltage_b", "V", "voltage phasor accumulated so far, 90 deg ahead");
+  d.state("current_a", "A", "current phasor accumulated so far, in phase");
+  d.state("current_b", "A", "current phasor accumulated so far, 90 deg ahead");
+  d.state("sum", "V", "sum of the voltages in the window so far");
+  d.state("capacitance", "F", "capacitance of the last window");
+  d.state("mean", "V", "mean voltage of the last window");
+  d.state("polarisation", "C/m^2", "polarisation by the integral, up to the last window");
   d.parameter("samples", "", "whole number of samples per window").minimum = 5;
-  d.parameter("cycles", "", "whole number of ripples per window").optional("1").minimum = 1;
-  d.parameter("layers", "", "wafers of the stack, side by side electrically").positive();
+  d.parameter("cycles", "", "whole number of ripple periods per window").optional("1").minimum = 1;
+  d.parameter("layers", "", "number of wafers of the stack, electrically in parallel").positive();
   d.parameter("area", "m^2", "area of one wafer").positive();
   d.parameter("thickness", "m", "thickness of one wafer").positive();
   d.parameter("initial", "C/m^2", "polarisation in the first window").optional("0 C/m^2").difference();
-  d.text("phasors", {"joint", "fourier"}, "fitted together with a ramp, or the Fourier coefficient of the window");
+  d.text("phasors", {"joint", "fourier"},
+         "joint: fitted together with a ramp; fourier: Fourier coefficient over the window");
   d.sampled();
 }
 
@@ -63,10 +66,12 @@ Sizes ImpedanceEstimator::sizes(const Shape&) {
 std::string ImpedanceEstimator::check(const View<double>& v) {
   const double n = v.parameter(samples), ripples = v.parameter(cycles);
   if (std::floor(n) != n || std::floor(ripples) != ripples)
-    return fmt::format("{:.4g} samples with {:.4g} ripples are no window; give whole numbers", n, ripples);
-  if (2 * ripples >= n)
-    return fmt::format("{:.4g} samples cannot tell {:.4g} ripples apart; give more than two samples per ripple", n,
+    return fmt::format("a window of {:.4g} samples with {:.4g} ripple periods is not possible; give whole numbers", n,
                        ripples);
+  if (2 * ripples >= n)
+    return fmt::format(
+        "{:.4g} samples cannot resolve {:.4g} ripple periods; give more than two samples per ripple period", n,
+        ripples);
   return "";
 }
 

@@ -29,23 +29,24 @@ std::string wrong_size(const Shape& shape, const char* name, int rows, int colum
 void PulledModel::describe_model(Declaration& spec) {
   spec.in_group("sampled").linear();
   spec.remark(
-      "The matrices are those of \"discrete_state_space\", for one period and plain numbers in \"input_unit\", "
-      "\"output_unit\" and \"state_unit\"; several units, one per element, are separated by commas: \"um, um/s\".");
+      "The matrices are those of \"discrete_state_space\": plain numbers for one sampling period, in "
+      "\"input_unit\", \"output_unit\" and \"state_unit\"; several units, one per element, are separated "
+      "by commas: \"um, um/s\".");
   spec.remark(
-      "The estimate is that before the present measurement, and is there when the controller of the same instant asks for "
-      "it.");
-  spec.input("u", "$u", "what drives the plant, one per column of B").vector();
-  spec.input("measured", "$y", "what is measured of it, one per row of C").vector();
+      "The output is the predicted estimate, without the present measurement, so a controller can use it "
+      "at the same instant.");
+  spec.input("u", "$u", "inputs of the plant, one per column of B").vector();
+  spec.input("measured", "$y", "measured outputs of the plant, one per row of C").vector();
   spec.output("x", "$x", "estimate of the states").vector();
-  spec.state("x", "", "estimate of the states, as the matrices mean them");
+  spec.state("x", "", "estimate of the states, in the units of the matrices");
   spec.matrix("a", "", "A, one row and column per state");
   spec.matrix("b", "", "B, one row per state, one column per input");
   spec.matrix("c", "", "C, one row per measurement, one column per state");
   spec.matrix("d", "", "D, one row per measurement, one column per input").optional("");
-  spec.list("initial", "", "estimate at the first instant, zero if left out").optional("");
-  spec.text("input_unit", {}, "unit of the inputs in which the matrices count").optional("");
-  spec.text("output_unit", {}, "unit of the measurements in which the matrices count").optional("");
-  spec.text("state_unit", {}, "unit of the states in which the matrices count").optional("");
+  spec.list("initial", "", "initial estimate of the states, zero if left out").optional("");
+  spec.text("input_unit", {}, "unit of the inputs that the matrices refer to").optional("");
+  spec.text("output_unit", {}, "unit of the measurements that the matrices refer to").optional("");
+  spec.text("state_unit", {}, "unit of the states that the matrices refer to").optional("");
 }
 
 Sizes PulledModel::sizes_of(const Shape& shape) {
@@ -87,12 +88,12 @@ void PulledModel::initial_states(const View<double>& v) {
 }
 
 void Observer::describe(Declaration& spec) {
-  spec.name("observer", "states of a plant from what is measured of it (Luenberger)");
+  spec.name("observer", "Luenberger observer: estimates the states of a plant");
   spec.law("x_(k+1) = A x_k + B u_k + gain (measured_k - C x_k - D u_k), x_0 = initial")
       .from("Luenberger, IEEE Trans. Automatic Control 16 (1971) 596-602");
   describe_model(spec);
-  spec.remark("The error of the estimate moves by the eigenvalues of A - gain C.");
-  spec.matrix("gain", "", "L, one row per state, one column per measurement");
+  spec.remark("The estimation error decays with the eigenvalues of A - gain C.");
+  spec.matrix("gain", "", "observer gain L, one row per state, one column per measurement");
   spec.sampled();
 }
 
@@ -108,16 +109,17 @@ void Observer::prepare(const View<double>& v) {
 }
 
 void KalmanFilter::describe(Declaration& spec) {
-  spec.name("kalman_filter", "states of a plant from what is measured of it, by the noises of both (stationary)");
+  spec.name("kalman_filter", "stationary Kalman filter: estimates the states of a plant");
   spec.law(
           "x_(k+1) = A x_k + B u_k + L (measured_k - C x_k - D u_k), L = A P C' (C P C' + R)^-1, P = A P A' - L C P A' + Q; Q = "
           "process_noise, R = measurement_noise")
       .from("Anderson, Moore, Optimal Filtering (1979), chapter 4");
   describe_model(spec);
   spec.remark(
-      "Only the quotient of Q and R matters: larger Q trusts the measurements more. Gains of one's own: \"observer\".");
-  spec.matrix("process_noise", "", "covariance Q of what disturbs the states per period, one row and column per state");
-  spec.matrix("measurement_noise", "", "covariance R of the measurements");
+      "Only the ratio of Q to R matters: a larger Q gives the measurements more weight. To give the gain "
+      "directly use \"observer\".");
+  spec.matrix("process_noise", "", "covariance Q of the process noise per period, one row and column per state");
+  spec.matrix("measurement_noise", "", "covariance R of the measurement noise, one row and column per measurement");
   spec.sampled();
 }
 
@@ -137,8 +139,9 @@ void KalmanFilter::prepare(const View<double>& v) {
 std::string KalmanFilter::check(const View<double>& v) {
   const auto gain = gain_of(v);
   if (std::all_of(gain.begin(), gain.end(), [](double x) { return std::isfinite(x); })) return "";
-  return "the error of the estimate does not settle: a state that does not decay is not seen in the measurements, or "
-         "\"measurement_noise\" is not positive; measure more, or give a positive \"measurement_noise\"";
+  return "the estimation error does not converge: an unstable or undamped state is not observable from the "
+         "measurements, or \"measurement_noise\" is not positive; add measurements, or give a positive "
+         "\"measurement_noise\"";
 }
 
 Kernel observer_block() { return kernel<Observer>(); }

@@ -12,7 +12,7 @@ constexpr int longest_cycle = 100000;
 }  // namespace
 
 void RepetitiveController::describe(Declaration& d) {
-  d.name("repetitive_controller", "puts right in advance what was wrong a cycle ago")
+  d.name("repetitive_controller", "repetitive controller: corrects errors that repeat every cycle")
       .in_group("sampled")
       .elementwise()
       .linear();
@@ -21,22 +21,27 @@ void RepetitiveController::describe(Declaration& d) {
        "w_i + w_(i+1))")
       .from("Longman, Int. J. Control 73 (2000) 930-954");
   d.remark(
-      "It is added to the command of the controller that is there, or to its reference. \"lead\" is how many samples the loop "
-      "takes to answer; gain below 1 over the loop's own learns slowly and surely.");
+      "Add the output to the command of the existing controller, or to its reference. \"lead\" is the "
+      "delay of the loop in samples. A gain below 1/(gain of the loop) learns more slowly but more "
+      "robustly.");
   d.remark(
-      "smoothing 1 lets the highest frequencies be forgotten, where the loop answers the other way round; it acts without "
-      "delay, since a cycle ago what comes next is known.");
+      "smoothing 1 removes the highest frequencies, where the phase of the loop would make the learning "
+      "unstable. The filter has zero phase: it uses the samples of the last cycle on both sides.");
   d.input("u", "$a", "control error");
-  d.output("y", "$b", "what is added");
-  d.state("w", "$a", "the last cycle and one sample more, oldest first");
-  d.parameter("samples", "", "of one cycle").structural().positive();
-  d.parameter("gain", "$b/$a", "command over error").optional("1").linear();
-  d.parameter("lead", "", "samples that it comes early, below \"samples\" - 1")
+  d.output("y", "$b", "correction");
+  d.state("w", "$a", "the samples of the last cycle and one more, oldest first");
+  d.parameter("samples", "", "samples per cycle").structural().positive();
+  d.parameter("gain", "$b/$a", "learning gain: correction per error").optional("1").linear();
+  d.parameter("lead", "", "number of samples by which the correction is advanced, below \"samples\" - 1")
       .optional("0")
       .structural()
       .not_negative();
-  d.parameter("keep", "", "share that is kept from cycle to cycle").optional("1").not_negative();
-  d.parameter("smoothing", "", "0 = none, 1 = the highest frequency is taken out").optional("0").not_negative();
+  d.parameter("keep", "", "fraction of the correction that is kept from cycle to cycle (forgetting factor)")
+      .optional("1")
+      .not_negative();
+  d.parameter("smoothing", "", "smoothing filter: 0 = none, 1 = the highest frequency is removed")
+      .optional("0")
+      .not_negative();
   d.sampled();
 }
 
@@ -47,9 +52,9 @@ Sizes RepetitiveController::sizes(const Shape& shape) {
   s.sampled_states = std::max(cycle, 1) + 1;
   s.feedthrough = false;
   if (cycle < 2 || cycle > longest_cycle)
-    s.error = fmt::format("a cycle of {} samples; give a whole number from 2 to {}", cycle, longest_cycle);
+    s.error = fmt::format("the cycle has {} samples; give a whole number from 2 to {}", cycle, longest_cycle);
   else if (lead > cycle - 2)
-    s.error = fmt::format("a lead of {} samples in a cycle of {}; give at most {}", lead, cycle, cycle - 2);
+    s.error = fmt::format("the lead is {} samples in a cycle of {}; give at most {}", lead, cycle, cycle - 2);
   return s;
 }
 

@@ -5,27 +5,27 @@
 namespace hysteron::blocks {
 
 void MotionProfile::describe(Declaration& d) {
-  d.name("motion_profile", "moves from place to place within limits of velocity, acceleration and jerk")
-      .in_group("sources");
+  d.name("motion_profile", "point-to-point motion with limited velocity, acceleration and jerk").in_group("sources");
   d.law(
-       "each move takes the shortest time in which |velocity|, |acceleration| and |jerk| stay within their limits, from "
-       "rest to rest: seven pieces, jerk +, 0, -, 0, -, 0, + of the limit; short moves reach fewer limits")
+       "each move goes from rest to rest in the shortest time with |velocity|, |acceleration| and |jerk| "
+       "within their limits: seven segments with the jerk +, 0, -, 0, -, 0, + times its limit; short moves "
+       "do not reach all limits")
       .from("Biagiotti, Melchiorri, Trajectory Planning for Automatic Machines and Robots (2008), section 3.4");
-  d.remark("Velocity and acceleration are outputs, for feed-forward.");
+  d.remark("Velocity and acceleration are outputs for feedforward control.");
   d.remark(
-      "\"profile\": \"trapezoid\" has no limit of jerk: the velocity is a trapezoid and the acceleration jumps; leave "
-      "jerk out then.");
-  d.output("position", "$a", "where it should be");
-  d.output("velocity", "$a/s", "its rate");
-  d.output("acceleration", "$a/s^2", "the rate of that");
-  d.list("positions", "$a", "where the moves lead, one behind the other");
+      "\"profile\": \"trapezoid\" has no jerk limit: the velocity is trapezoidal and the acceleration "
+      "jumps; leave jerk out then.");
+  d.output("position", "$a", "reference position");
+  d.output("velocity", "$a/s", "reference velocity");
+  d.output("acceleration", "$a/s^2", "reference acceleration");
+  d.list("positions", "$a", "target positions, in order");
   d.parameter("velocity", "$a/s", "largest speed").positive().difference();
   d.parameter("acceleration", "$a/s^2", "largest acceleration").positive().difference();
-  d.parameter("jerk", "$a/s^3", "largest rate of the acceleration").optional("0").not_negative().difference();
-  d.text("profile", {"s_curve", "trapezoid"}, "whether the jerk is limited");
-  d.parameter("dwell", "s", "how long it rests behind each move").optional("0 s").not_negative();
-  d.parameter("time", "s", "begin of the first move").optional("0 s");
-  d.parameter("initial", "$a", "where it is before").optional("0");
+  d.parameter("jerk", "$a/s^3", "largest jerk; only for the profile s_curve").optional("0").not_negative().difference();
+  d.text("profile", {"s_curve", "trapezoid"}, "s_curve: limited jerk; trapezoid: unlimited jerk");
+  d.parameter("dwell", "s", "rest time after each move").optional("0 s").not_negative();
+  d.parameter("time", "s", "start of the first move").optional("0 s");
+  d.parameter("initial", "$a", "initial position").optional("0");
 }
 
 Sizes MotionProfile::sizes(const Shape& shape) {
@@ -34,7 +34,7 @@ Sizes MotionProfile::sizes(const Shape& shape) {
   s.feedthrough = false;
   const bool sharp = shape.text("profile") == "trapezoid";
   s.smoothness = sharp ? Smoothness::jumps : Smoothness::smooth;
-  if (shape.length("positions") < 1) s.error = "\"positions\" is empty; give at least one place";
+  if (shape.length("positions") < 1) s.error = "\"positions\" is empty; give at least one position";
   return s;
 }
 

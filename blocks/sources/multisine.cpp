@@ -12,15 +12,19 @@ void Multisine::describe(BlockSpec<Multisine>& spec) {
           "y = offset + rms sqrt(2/n) sum sin(2 pi f_k t + phi_k), f_k = lowest + k spacing <= highest, phi_k uniform "
           "in [0, 2 pi)")
       .from("Pintelon, Schoukens, System Identification: A Frequency Domain Approach, 2nd ed. (2012), section 2");
-  spec.remark("One period is 1/spacing where lowest is a multiple of spacing. The peak is about 3 to 4 times the rms.");
+  spec.remark(
+      "The period is 1/spacing if lowest is a multiple of spacing. The peak is about 3 to 4 times the rms "
+      "value.");
   spec.remark("The same seed gives the same signal on every machine.");
   spec.output(&Out<double>::y, "y", "$a", "the signal");
-  spec.param(&Params<double>::rms, "rms", "$a", "root mean square around the offset").linear().difference();
+  spec.param(&Params<double>::rms, "rms", "$a", "root mean square (rms) of the signal around the offset")
+      .linear()
+      .difference();
   spec.param(&Params<double>::offset, "offset", "$a", "mean value").optional("0").offset();
   spec.param(&Params<double>::lowest, "lowest", "Hz", "lowest frequency").positive();
   spec.param(&Params<double>::highest, "highest", "Hz", "highest frequency").positive();
-  spec.param(&Params<double>::spacing, "spacing", "Hz", "distance of neighbouring frequencies").positive();
-  spec.param(&Params<double>::seed, "seed", "", "whole number that fixes the random phases")
+  spec.param(&Params<double>::spacing, "spacing", "Hz", "spacing of neighbouring frequencies").positive();
+  spec.param(&Params<double>::seed, "seed", "", "whole number that selects the random phases")
       .optional("1")
       .not_negative();
 }

@@ -3,13 +3,15 @@
 namespace hysteron::blocks {
 
 void Staircase::describe(Declaration& d) {
-  d.name("staircase", "a list of levels, each held for the same time").in_group("sources");
+  d.name("staircase", "staircase: levels of equal duration").in_group("sources");
   d.law("y = levels[k] for k duration <= t < (k + 1) duration").from("definition");
-  d.remark("The last level is held for ever, the first one before t = 0.");
-  d.remark("It jumps: a law that is driven by the rate of its input (bouc_wen) needs a lag in between.");
+  d.remark("The last level is held to the end; before t = 0 the first one applies.");
+  d.remark(
+      "The output jumps: a block that is driven by the rate of its input (e.g. bouc_wen) needs a lag in "
+      "between.");
   d.output("y", "$a", "the level");
   d.list("levels", "$a", "the levels, in order").offset();
-  d.parameter("duration", "s", "how long each level is held").positive();
+  d.parameter("duration", "s", "duration of each level").positive();
 }
 
 Sizes Staircase::sizes(const Shape& shape) {

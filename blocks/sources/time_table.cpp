@@ -5,24 +5,27 @@
 namespace hysteron::blocks {
 
 void TimeTable::describe(Declaration& d) {
-  d.name("time_table", "points over time, from the diagram or a file").in_group("sources");
+  d.name("time_table", "signal from a table of points over time").in_group("sources");
   d.law(
-       "linear: straight lines from point to point; hold: each until the next; akima: a smooth curve through them; "
-       "constant outside, or from the first point again")
+       "linear: straight lines from point to point; hold: each value is held until the next; akima: a "
+       "smooth curve through the points; outside the table constant, or repeated periodically")
       .from("Akima, J. ACM 17 (1970) 589-602");
   d.remark(
-      "From a file: \"parameters\": \"way.csv\", with the columns times and values, units in their headers (\"times "
-      "[ms]\"). What was measured along with the data of a fit is \"recorded\", or an input of the diagram.");
-  d.remark("The values of all but a smooth curve (akima) can be fitted, by linear least squares.");
+      "From a file: \"parameters\": \"points.csv\", with the columns times and values and their units in "
+      "the headers (\"times [ms]\"). For a signal that was measured together with the data of a fit use "
+      "\"recorded\", or an input of the diagram.");
+  d.remark("With linear and hold the values can be fitted by linear least squares, with akima they cannot.");
   d.remark(
-      "\"repeat\": \"yes\" begins again with the first point where the last one is; where these two differ it jumps "
-      "there.");
-  d.remark("A held table jumps: a law that is driven by the rate of its input (bouc_wen) needs a lag in between.");
+      "With \"repeat\": \"yes\" the table starts again with its first point at the time of its last point; "
+      "if the two values differ, the signal jumps there.");
+  d.remark(
+      "With \"hold\" the output jumps: a block that is driven by the rate of its input (e.g. bouc_wen) "
+      "needs a lag in between.");
   d.output("y", "$a", "the signal");
-  d.list("times", "s", "instants of the points").increasing();
-  d.list("values", "$a", "values there").as_long_as("times");
-  d.text("between_points", {"linear", "hold", "akima"}, "how it moves from point to point");
-  d.text("repeat", {"no", "yes"}, "whether it begins again behind the last point");
+  d.list("times", "s", "times of the points").increasing();
+  d.list("values", "$a", "values at these times").as_long_as("times");
+  d.text("between_points", {"linear", "hold", "akima"}, "interpolation between the points");
+  d.text("repeat", {"no", "yes"}, "whether the table repeats periodically after its last point");
 }
 
 /// Akima's curve is not affine in its values.
@@ -40,7 +43,7 @@ Sizes TimeTable::sizes(const Shape& shape) {
   if (n != shape.length("values"))
     s.error = fmt::format("{} \"times\" and {} \"values\"; give one of each per point", n, shape.length("values"));
   else if (n < 2)
-    s.error = "a table of one point does not move; give two points or more, or a \"constant\"";
+    s.error = "a table needs at least two points; for one point use a \"constant\"";
   return s;
 }
 

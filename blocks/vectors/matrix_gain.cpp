@@ -9,12 +9,12 @@ void MatrixGain::describe(Declaration& d) {
   d.law("y = matrix u").from("definition");
   d.remark("One row per output, one column per input: \"matrix\": [[\"1 um/V\", \"0.1 um/V\"], [0, \"2 um/V\"]].");
   d.remark(
-      "Rows may give different units, so may columns take them; an element of zero fits any unit, one without a unit "
-      "keeps the unit of its column.");
-  d.remark("An element of zero is no connection: a feedback that only goes round through it is no algebraic loop.");
+      "Rows may have different output units, columns different input units; an element of 0 fits any unit, "
+      "one without a unit keeps the unit of its column.");
+  d.remark("An element of 0 is not a connection: a feedback path through it is not an algebraic loop.");
   d.input("u", "$a[i]", "the vector").vector();
-  d.output("y", "$b[i]", "the product").vector();
-  d.matrix("matrix", "$b[row]/$a[column]", "rows of the matrix, output per input").linear();
+  d.output("y", "$b[i]", "the matrix times the vector").vector();
+  d.matrix("matrix", "$b[row]/$a[column]", "rows of the matrix; elements are output per input").linear();
 }
 
 Sizes MatrixGain::sizes(const Shape& shape) {

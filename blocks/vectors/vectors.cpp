@@ -8,11 +8,11 @@
 namespace hysteron::blocks {
 
 void Mux::describe(Declaration& d) {
-  d.name("mux", "joins signals into one vector").in_group("vectors").linear();
+  d.name("mux", "joins signals into a vector").in_group("vectors").linear();
   d.law("y = (u_1, u_2, ...)").from("definition");
-  d.remark("Takes single numbers and vectors. Each element keeps its own unit.");
+  d.remark("The inputs may be scalars and vectors. Each element keeps its own unit.");
   d.inputs_any("in", "$a[i]", "the signals, in the order of the elements").vector();
-  d.output("y", "$a[i]", "all their elements, one behind the other").vector();
+  d.output("y", "$a[i]", "vector of all their elements, in order").vector();
 }
 
 Sizes Mux::sizes(const Shape& shape) {
@@ -27,13 +27,13 @@ Sizes Mux::sizes(const Shape& shape) {
 }
 
 void Demux::describe(Declaration& d) {
-  d.name("demux", "takes a vector apart").in_group("vectors").linear();
+  d.name("demux", "splits a vector into parts").in_group("vectors").linear();
   d.law("u = (y0, y1, ...)").from("definition");
   d.remark("\"lengths\": [2, 1] makes the outputs y0 (two elements) and y1 (one), for a vector of length 3.");
   d.remark("For one element no block is needed: \"in\": \"tilt[1]\" reads the second element of \"tilt\".");
   d.input("u", "$a[i]", "the vector").vector();
   d.outputs_any("y", "$a[i]", "its parts: y0, y1, ...").vector();
-  d.list("lengths", "", "how many elements each output takes").structural().positive();
+  d.list("lengths", "", "number of elements of each output").structural().positive();
 }
 
 Sizes Demux::sizes(const Shape& shape) {
@@ -48,12 +48,12 @@ Sizes Demux::sizes(const Shape& shape) {
 }
 
 void Select::describe(Declaration& d) {
-  d.name("select", "picks elements of a vector").in_group("vectors").linear();
+  d.name("select", "selects elements of a vector").in_group("vectors").linear();
   d.law("y_k = u[indices_k]").from("definition");
-  d.remark("Elements count from 0. An element may be picked several times, in any order.");
+  d.remark("Elements are numbered from 0. An element may be selected several times, in any order.");
   d.input("u", "$a[i]", "the vector").vector();
-  d.output("y", "$b[i]", "the elements picked").vector();
-  d.list("indices", "", "which elements, e.g. [2, 0]").structural().not_negative();
+  d.output("y", "$b[i]", "the selected elements").vector();
+  d.list("indices", "", "numbers of the elements, e.g. [2, 0]").structural().not_negative();
 }
 
 Sizes Select::sizes(const Shape& shape) {

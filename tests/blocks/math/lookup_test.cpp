@@ -130,7 +130,7 @@ TEST(LookupBlock, EndsTheRunOutsideWhereAsked) {
     const std::string told = e.what();
     EXPECT_NE(told.find("lookup"), std::string::npos) << told;
     // the cure, and nothing of files and fits
-    EXPECT_NE(told.find("give it further ones, or \"outside\": \"clip\""), std::string::npos) << told;
+    EXPECT_NE(told.find("give further knots, or \"outside\": \"clip\""), std::string::npos) << told;
     EXPECT_EQ(told.find("From a file"), std::string::npos) << told;
   }
 }
