@@ -38,6 +38,7 @@ Effect quantization() {
     // The column says it: what is left to find is less than half a step at the end of the range.
     step.lower = step.start * (1 - 0.25 / levels);
     step.upper = step.start * (1 + 0.25 / levels);
+    step.read_off_column = true;
     give(law.block, "step", with_unit(step.start, at.unit));
     law.free = {step};
     return std::vector<Law>{law};

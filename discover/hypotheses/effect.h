@@ -115,6 +115,9 @@ struct LawParameter {
   bool period_of_wire = false;
   /// Its value is another one in each recording and found on that recording alone, validation included; linear.
   bool per_recording = false;
+  /// The column itself says it, and 0 silences the law: all else is fitted so, for between two levels an output has no
+  /// derivative.
+  bool read_off_column = false;
   /// 0 is no effect, and what the effect does grows with this number, in proportion while it is small (and with others
   /// of the law that are marked so). Of first laws: see EffectLimit.
   bool is_size = false;

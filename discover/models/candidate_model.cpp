@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "discover/models/fit_candidate_model.h"
+#include "discover/models/free_numbers.h"
 #include "engine/diagram/error.h"
 #include "engine/diagram/stop.h"
 #include "fit/numerics/median.h"

@@ -49,8 +49,12 @@ struct CandidateModel {
   /// Where the recordings begin, as DataModel::start_of(), by the state: [recording]. A further effect begins there.
   std::vector<std::map<std::string, double>> starts;
   Prediction prediction;  ///< train and validate recordings
-  ModelError error_of;    ///< filled in by whoever holds the evidence
-  int parameters = 0;     ///< that the effects spend: of their laws, determined and not held at a bound
+  /// The same before columns round it to their levels, where some do: what was rounded moves in jumps, and whoever
+  /// happens to move one the right way explains nothing.
+  std::optional<Prediction> before_rounding{};
+  const Prediction& unrounded() const { return before_rounding ? *before_rounding : prediction; }
+  ModelError error_of;  ///< filled in by whoever holds the evidence
+  int parameters = 0;   ///< that the effects spend: of their laws, determined and not held at a bound
   long runs = 0;
 };
 

@@ -8,85 +8,25 @@
 #include <optional>
 
 #include "discover/models/fit_cost.h"
+#include "discover/models/free_numbers.h"
 #include "discover/models/parts.h"
 #include "engine/diagram/stop.h"
 #include "fit/estimate/starts.h"
 
 namespace hysteron {
 
-bool has_line(const Law& law) {
-  return std::any_of(law.free.begin(), law.free.end(), [](const LawParameter& p) { return !p.line_bands.empty(); });
-}
-
 namespace {
-
-/// The frequency of a known line, while the others are fitted, or by itself.
-enum class KnownLines { held, tuned };
 
 /// Whether a fit to the end says how sure its values are. Profiles take ten times as long as the fit.
 enum class Intervals { told, not_yet };
 
-/// What the user left free, while an effect is fitted: free too, or as it was found without the effect.
-enum class Own { free, held };
-
-/// What a line may do beside being steady is left out of the judgement once it is known, about the frequency that it
-/// was found at: another one near by would cost nothing.
-bool is_known_line(const FitContext& context, const CandidateModel& c, const PlacedEffect& s, const LawParameter& p) {
-  if (p.line_bands.empty() || context.evidence == nullptr) return false;
-  const ParameterInfo* info = c.program->find_parameter(parameter_path(s.name, s.law, p));
-  if (info == nullptr) return false;
-  const auto& judged = context.evidence->model().outputs();
-  const auto outputs = outputs_behind(*c.program, info->block);
-  return std::any_of(outputs.begin(), outputs.end(), [&](int o) {
-    const auto here = std::find(judged.begin(), judged.end(), c.program->output_names[static_cast<std::size_t>(o)]);
-    return here != judged.end() &&
-           context.evidence->noise().outputs[static_cast<std::size_t>(here - judged.begin())].left_out.any();
-  });
-}
-
-/// A number that the model held is near what is written.
-void know_roughly(const FitContext& context, const Program& program, FreeParameter& f) {
-  const auto n = context.roughly.find(program.parameters[static_cast<std::size_t>(f.parameter)].path);
-  if (n == context.roughly.end()) return;
-  const auto otherwise = context.known_to.times.find(n->first);
-  const double times = otherwise == context.known_to.times.end() ? 1 : otherwise->second;
-  const double written = n->second, width = times * context.known_to.width * std::abs(written);
-  const auto [low, high] = std::minmax(
-      {std::pow(context.known_to.least, times) * written, std::pow(context.known_to.most, times) * written});
-  f.prior = {written - width, written + width};
-  f.lower = std::max(f.lower, low);
-  f.upper = std::min(f.upper, high);
-  f.start = std::clamp(f.start, f.lower, f.upper);
-}
-
-/// The free parameters: the user's own, and those of the chosen effects.
-std::vector<FreeParameter> free_of(const FitContext& context, const CandidateModel& c, const std::vector<bool>& chosen,
-                                   int fresh, const std::vector<int>& recordings, KnownLines lines = KnownLines::held,
-                                   Own own = Own::free) {
-  auto free = own == Own::free ? free_parameters(*c.program, context.free_paths) : std::vector<FreeParameter>{};
-  for (auto& f : free) know_roughly(context, *c.program, f);
-  for (std::size_t i = 0; i < c.placed.size(); ++i) {
-    if (!chosen[i]) continue;
-    const bool is_new = static_cast<int>(i) == fresh;
-    PlacedEffect standing = c.placed[i];
-    if (!is_new && lines == KnownLines::held)
-      std::erase_if(standing.law.free, [&](const LawParameter& p) { return is_known_line(context, c, standing, p); });
-    for (auto& f : free_of_law(*c.program, standing, is_new, recordings)) {
-      std::erase_if(free, [&](const FreeParameter& have) {
-        return have.parameter == f.parameter && have.recording == f.recording;
-      });
-      free.push_back(std::move(f));
-    }
-    for (const auto* anew : {&c.placed[i].zeros, &c.placed[i].weights})
-      for (const auto& path : *anew) {
-        FreeParameter f = free_parameter(*c.program, path);
-        const bool have =
-            std::any_of(free.begin(), free.end(), [&](const FreeParameter& h) { return h.parameter == f.parameter; });
-        if (!have) free.push_back(std::move(f));
-      }
-  }
-  return free;
-}
+/// How one fit goes about it.
+struct Manner {
+  KnownLines lines = KnownLines::held;
+  Intervals intervals = Intervals::told;
+  Own own = Own::free;
+  bool levels = false;  ///< levels of a column are what is fitted; else they are silent
+};
 
 /// Rows are no more exact than this share of what a candidate leaves: a law that leaves a thousand times the noise of
 /// an encoder is not told from others by the last tenth of that noise.
@@ -126,6 +66,15 @@ void keep_starts(CandidateModel& c, const DataModel& model, const Judge& judge) 
     for (std::size_t k = 0; k < starts[r].size(); ++k) c.starts[r][states[k]] = starts[r][k];
 }
 
+/// The same values with the levels of columns silent.
+Trial unrounded(const CandidateModel& c, const Program& program, Trial values) {
+  for (const auto& silent : silent_levels(c, program)) {
+    std::erase_if(values, [&](const ParameterValue& v) { return v.parameter == silent.parameter; });
+    values.push_back(silent);
+  }
+  return values;
+}
+
 void predict(const FitContext& context, CandidateModel& c, DataModel& model, const Trial& values) {
   const std::vector<Role> judged{Role::train, Role::validate};
   const long before = model.runs();
@@ -134,6 +83,8 @@ void predict(const FitContext& context, CandidateModel& c, DataModel& model, con
   if (free_starts) judge.emplace(model, noise_of(context, model));
   if (model.starts_are_searched()) improve_starts(model, *judge, values, model.recordings(judged));
   c.prediction = model.predict(values, model.recordings(judged));
+  if (std::any_of(c.placed.begin(), c.placed.end(), reads_off_column))
+    c.before_rounding = model.predict(unrounded(c, model.program(), values), model.recordings(judged));
   if (free_starts && c.prediction.ok) keep_starts(c, model, *judge);
   c.runs += model.runs() - before;
   c.ok = c.prediction.ok;
@@ -194,13 +145,12 @@ void keep_estimates(FitResult& now, FitResult before) {
 /// `outputs` see; `fresh` = index of the effect that starts from its law instead of its values, -1 = none.
 /// The answer: steps_from().
 double fit_chosen(const FitContext& context, CandidateModel& c, Effort effort, int fresh,
-                  const std::vector<bool>& chosen, const std::vector<std::string>& outputs,
-                  KnownLines lines = KnownLines::held, Intervals intervals = Intervals::told, Own own = Own::free) {
+                  const std::vector<bool>& chosen, const std::vector<std::string>& outputs, const Manner& manner = {}) {
   c.program = compile(c.diagram, *context.registry);
   const bool some = outputs.size() < c.program->output_names.size();
   const ProgramPointer seen = some ? compile(seen_at(c.diagram, outputs), *context.registry) : c.program;
   DataModel model = model_of(context, c, seen, effort);
-  auto free = free_of(context, c, chosen, fresh, train_and_validate(*context.data), lines, own);
+  auto free = free_of(context, c, chosen, fresh, train_and_validate(*context.data), manner.lines, manner.own);
   if (some) std::erase_if(free, [&](const FreeParameter& f) { return !moves_an_output(*seen, f.parameter); });
   const Trial fixed = held(c, free);
   if (free.empty()) {
@@ -209,21 +159,22 @@ double fit_chosen(const FitContext& context, CandidateModel& c, Effort effort, i
     predict(context, c, whole, fixed);
     return 0;
   }
+  Trial in_fit = manner.levels ? fixed : unrounded(c, *c.program, fixed);
   NoiseModel noise = noise_of(context, model);
   FitOptions options;
   options.max_iterations = effort == Effort::full ? 15 : 30;
-  const double steps = effort == Effort::final ? 0 : steps_from(model, noise.white(), fixed, free);
+  const double steps = effort == Effort::final ? 0 : steps_from(model, noise.white(), in_fit, free);
   if (effort == Effort::screen) spend_less(c, steps, free, options);
   if (effort == Effort::full) keep_within_time(c, steps, free, options);
-  options.intervals = effort == Effort::final && intervals == Intervals::told;
+  options.intervals = effort == Effort::final && manner.intervals == Intervals::told;
   options.profile_steps = fit_steps;
   if (effort != Effort::final) options.search_again_steps = effort == Effort::full ? fit_steps : screening_steps;
   options.scores = false;
   options.matters = effort == Effort::full ? full_matters : effort == Effort::screen ? screen_matters : 0;
-  options.fixed = fixed;
+  options.fixed = std::move(in_fit);
   FitResult before = std::move(c.fit);
   const bool sought = fresh >= 0 && has_line(c.placed[static_cast<std::size_t>(fresh)].law);
-  if (sought || lines == KnownLines::tuned)  // what is left out about one frequency would hide every other
+  if (sought || manner.lines == KnownLines::tuned)  // what is left out about one frequency would hide every other
     for (auto& o : noise.outputs) o.left_out = {};
   const bool again = effort == Effort::full && fresh < 0;
   const std::string name = again ? name_of_fit(*seen, free, outputs) : "";
@@ -275,7 +226,7 @@ bool sweep_through(const FitContext& context, CandidateModel& c, Effort effort, 
     std::vector<bool> one(c.placed.size(), false);
     one[i] = true;
     const double steps = fit_chosen(context, c, effort, static_cast<int>(i) == fresh ? fresh : -1, one, outputs,
-                                    KnownLines::held, intervals);
+                                    {.intervals = intervals});
     if (!c.ok) return false;
     slow = slow || steps > 0;
   }
@@ -303,12 +254,12 @@ bool begins_better_alone(const FitContext& context, const CandidateModel& c, int
 }
 
 /// The chosen effects of one part, together or in turn.
-void fit_part(const FitContext& context, CandidateModel& c, Effort effort, int fresh, const std::vector<bool>& chosen,
-              const std::vector<std::string>& outputs) {
+void fit_together(const FitContext& context, CandidateModel& c, Effort effort, int fresh,
+                  const std::vector<bool>& chosen, const std::vector<std::string>& outputs) {
   if (begins_better_alone(context, c, fresh)) {
     std::vector<bool> one(c.placed.size(), false);
     one[static_cast<std::size_t>(fresh)] = true;
-    fit_chosen(context, c, effort, fresh, one, outputs, KnownLines::held, Intervals::not_yet, Own::held);
+    fit_chosen(context, c, effort, fresh, one, outputs, {.intervals = Intervals::not_yet, .own = Own::held});
     if (!c.ok) return;
     fresh = -1;
   }
@@ -329,6 +280,27 @@ void fit_part(const FitContext& context, CandidateModel& c, Effort effort, int f
   if (effort == Effort::final) sweep_through(context, c, effort, -1, chosen, outputs, Intervals::told);
 }
 
+/// The chosen effects of one part. Levels that a column has are found by themselves, when they are new and to be told;
+/// all else is fitted beside silent ones.
+void fit_part(const FitContext& context, CandidateModel& c, Effort effort, int fresh, std::vector<bool> chosen,
+              const std::vector<std::string>& outputs) {
+  std::vector<bool> levels(chosen.size(), false);
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    levels[i] = chosen[i] && reads_off_column(c.placed[i]);
+    chosen[i] = chosen[i] && !levels[i];
+  }
+  const Manner alone{.own = Own::held, .levels = true};
+  const bool new_levels = fresh >= 0 && levels[static_cast<std::size_t>(fresh)];
+  if (new_levels) {
+    fit_chosen(context, c, effort, fresh, levels, outputs, alone);
+    if (!c.ok || effort == Effort::screen) return;
+    fresh = -1;
+  }
+  fit_together(context, c, effort, fresh, chosen, outputs);
+  const bool any = std::find(levels.begin(), levels.end(), true) != levels.end();
+  if (c.ok && effort == Effort::final && any) fit_chosen(context, c, effort, -1, levels, outputs, alone);
+}
+
 /// Known lines once more by themselves: beside an effect that came later their frequency may be another one by a
 /// little, and in a long recording that is many turns.
 void tune_known_lines(const FitContext& context, CandidateModel& c, Effort effort, const std::vector<bool>& chosen,
@@ -339,7 +311,7 @@ void tune_known_lines(const FitContext& context, CandidateModel& c, Effort effor
         chosen[i] && std::any_of(c.placed[i].law.free.begin(), c.placed[i].law.free.end(),
                                  [&](const LawParameter& p) { return is_known_line(context, c, c.placed[i], p); });
   if (std::find(lines.begin(), lines.end(), true) != lines.end())
-    fit_chosen(context, c, effort, -1, lines, outputs, KnownLines::tuned);
+    fit_chosen(context, c, effort, -1, lines, outputs, {.lines = KnownLines::tuned});
 }
 
 /// Does any recording measure one of these outputs: what nobody measured, nothing can fit.
@@ -348,19 +320,6 @@ bool any_recorded(const DataSet& data, const std::vector<std::string>& outputs) 
     return std::any_of(data.recordings.begin(), data.recordings.end(),
                        [&](const Recording& r) { return r.columns.contains(name); });
   });
-}
-
-/// Two poles that a fit left at one time are at a saddle where something else is found beside them: they begin apart.
-void part_those_alike(const Law& law, std::vector<FreeParameter>& free) {
-  constexpr double alike = 0.02, apart = 1.5;  // of the one, to each side
-  if (law.free.size() != free.size()) return;
-  for (std::size_t i = 0; i < free.size(); ++i)
-    for (std::size_t k = i + 1; k < free.size(); ++k) {
-      if (!law.free[i].interchangeable || !law.free[k].interchangeable) continue;
-      if (std::abs(free[i].start - free[k].start) > alike * std::abs(free[i].start)) continue;
-      free[i].start = std::min(free[i].start * apart, free[i].upper);
-      free[k].start = std::max(free[k].start / apart, free[k].lower);
-    }
 }
 
 }  // namespace
@@ -378,29 +337,6 @@ void begin_as_found(const CandidateModel& c, DataModel& model) {
     }
     model.begin_at(r, std::move(start));
   }
-}
-
-std::vector<FreeParameter> free_of_law(const Program& program, const PlacedEffect& standing, bool is_new,
-                                       const std::vector<int>& recordings) {
-  std::vector<FreeParameter> list;
-  for (const auto& p : standing.law.free) {
-    FreeParameter f = free_parameter(program, parameter_path(standing.name, standing.law, p));
-    f.lower = std::max(f.lower, p.lower);
-    f.upper = std::min(f.upper, p.upper);
-    if (is_new) f.start = std::isnan(p.start) ? p.share * f.start : p.start;
-    f.start = std::clamp(f.start, f.lower, f.upper);
-    f.log_scale = p.log_scale && f.lower > 0;
-    f.scan.clear();
-    if (is_new)
-      for (const double v : p.scan)
-        if (v >= f.lower && v <= f.upper) f.scan.push_back(v);
-    if (p.per_recording)
-      for (const int r : recordings) list.emplace_back(f).recording = r;
-    else
-      list.push_back(std::move(f));
-  }
-  if (!is_new) part_those_alike(standing.law, list);
-  return list;
 }
 
 /// Nonlinear states in rows of slow recordings need many substeps, and are still ten times quicker than BDF. In long

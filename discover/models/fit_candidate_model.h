@@ -1,5 +1,5 @@
-// Decides how the free numbers of one model of a discovery are fitted: which they are, in which order, to what
-// accuracy. Does not decide what stands in the model (candidate_model.h). Internal to discover.
+// Decides how the free numbers of one model of a discovery are fitted: in which order, to what accuracy. Does not
+// decide which these are (free_numbers.h) nor what stands in the model (candidate_model.h). Internal to discover.
 #pragma once
 
 #include <vector>
@@ -11,13 +11,6 @@ namespace hysteron {
 /// Compiles the diagram of `c` and fits it: the parts that do not need each other one by one. `fresh` = index of the
 /// effect that starts from its law instead of its values, -1 = none.
 void fit_candidate_model(const FitContext& context, CandidateModel& c, Effort effort, int fresh);
-
-/// The free parameters of one law where it stands; `recordings`: those of which each has its own value.
-std::vector<FreeParameter> free_of_law(const Program& program, const PlacedEffect& standing, bool is_new,
-                                       const std::vector<int>& recordings);
-
-/// Does it look for a line: is one of its parameters the frequency of one.
-bool has_line(const Law& law);
 
 /// Recordings whose start is searched for begin where the model was last found to begin.
 void begin_as_found(const CandidateModel& c, DataModel& model);

@@ -202,7 +202,7 @@ struct Fall {
 };
 Fall fall_of(const Selection& selection, const Evidence& evidence, const TableModel& before, const TableModel& f) {
   Fall fall;
-  const auto was = selection.score().chi2_of(before.left), is = selection.score().chi2_of(f.left);
+  const auto was = selection.score().chi2_of(before.left_at_last()), is = selection.score().chi2_of(f.left_at_last());
   for (std::size_t k = 0; k < was.size(); ++k) {
     fall.by_recording.push_back(was[k] - is[k]);
     const bool train = evidence.model().recording(f.left[k].recording).role == Role::train;
@@ -362,10 +362,11 @@ bool holds(const SearchState& all, const Search& part, const Told& told) {
     left.push_back(models.back().left);
   }
   const BlockScore score(*all.evidence, left);
+  for (auto& m : models) m.by_levels = raised_by_levels(score, m);
   for (std::size_t k = 0; k + 1 < models.size(); ++k)
     if (score_of(score, models[k + 1]) < score_of(score, models[k]) + rules::by_score) return false;
-  const double left_in_part = selection.score().over_noise(selection.best().left);
-  return score.over_noise(left.back()) <= rules::near_noise * std::max(1.0, left_in_part);
+  const double left_in_part = selection.score().over_noise(selection.best().left_at_last());
+  return score.over_noise(models.back().left_at_last()) <= rules::near_noise * std::max(1.0, left_in_part);
 }
 
 std::string parts_of(const DataSet& part) {

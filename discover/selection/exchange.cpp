@@ -56,6 +56,7 @@ TableModel Selection::others_as_they_are(const std::vector<std::size_t>& term) c
     as_they_are = without(state_.context, as_they_are, *i);
   if (rest.ok() && as_they_are.ok) {
     as_they_are.prediction = std::move(rest.model.prediction);
+    as_they_are.before_rounding = std::move(rest.model.before_rounding);
     rest.model = std::move(as_they_are);
   }
   return rest;
@@ -192,7 +193,7 @@ bool Selection::exchange() {
   for (std::size_t i = 0; i + 1 < terms.size(); ++i) {
     const Effect& standing = *best_.model.placed[terms[i].front()].effect;
     if (take_better(standing, in_place_of(terms[i]))) return true;
-    if (score().over_noise(best_.left) > rules::near_noise && take_better(standing, by_other_laws(terms[i])))
+    if (score().over_noise(best_.left_at_last()) > rules::near_noise && take_better(standing, by_other_laws(terms[i])))
       return true;
   }
   return false;

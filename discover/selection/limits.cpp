@@ -252,7 +252,8 @@ class Limits {
 }  // namespace
 
 void tell_limits(SearchState& state, const Selection& selection, Discovery& d) {
-  if (!selection.best().ok() || selection.score().over_noise(selection.best().left) > rules::near_noise) return;
+  if (!selection.best().ok() || selection.score().over_noise(selection.best().left_at_last()) > rules::near_noise)
+    return;
   const CandidateModel was = std::exchange(state.current, selection.best().model);
   std::vector<EffectLimit> widest;  // one of each effect
   state.unless_stopped([&] {

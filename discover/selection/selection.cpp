@@ -60,6 +60,8 @@ TableModel without_prediction(const TableModel& f) {
   one.model.ok = f.model.ok;
   one.numbers = f.numbers;
   one.left = f.left;
+  one.rounded = f.rounded;
+  one.by_levels = f.by_levels;
   one.parameters = f.parameters;
   one.tried = f.tried;
   one.moved = f.moved;
@@ -215,9 +217,10 @@ void Selection::fit_with_numbers(std::vector<Addition>& rivals, const std::vecto
       return false;
     });
     take_up(rivals, std::move(answers));
-    double least = score().over_noise(best_.left);
+    double least = score().over_noise(best_.left_at_last());
     for (std::size_t i = 0; i < n; ++i)
-      if (const TableModel& f = rivals[first + i].fitted; f.ok()) least = std::min(least, score().over_noise(f.left));
+      if (const TableModel& f = rivals[first + i].fitted; f.ok())
+        least = std::min(least, score().over_noise(f.left_at_last()));
     if (least < rules::near_noise) break;
   }
   sort(rivals);
@@ -256,7 +259,7 @@ void Selection::fit_richer_laws(std::vector<Addition>& rivals) {
   std::set<std::string> names;
   std::vector<std::pair<std::size_t, std::size_t>> jobs;  // rival, law
   const bool only_noise = !rivals.empty() && rivals.front().fitted.ok() &&
-                          score().over_noise(rivals.front().fitted.left) < rules::near_noise;
+                          score().over_noise(rivals.front().fitted.left_at_last()) < rules::near_noise;
   for (std::size_t i = 0; i < rivals.size(); ++i) {
     if (!rivals[i].fitted.ok()) continue;
     if (names.size() >= enriched_names && !names.contains(rivals[i].tried.effect->id)) break;
@@ -316,8 +319,8 @@ void Selection::fit(std::vector<Addition>& rivals, int step) {
     std::vector<Addition> some;
     for (auto& r : rivals)
       if (r.slowness == slow) some.push_back(std::move(r));
-    const bool only_noise =
-        !all.empty() && all.front().fitted.ok() && score().over_noise(all.front().fitted.left) < rules::near_noise;
+    const bool only_noise = !all.empty() && all.front().fitted.ok() &&
+                            score().over_noise(all.front().fitted.left_at_last()) < rules::near_noise;
     if (!some.empty() && !only_noise && !state_.stopped()) {
       fit_first_laws(some, step);
       std::vector<TableModel> begun;
@@ -359,7 +362,7 @@ bool Selection::add_one(int step) {
     if (!r.fitted.ok() || score_of(r.fitted) <= needed) break;
     if (!is_itself(r)) continue;
     // Where more than noise is left, who was not asked might have been the one.
-    if (broken_off && score().over_noise(r.fitted.left) > rules::near_noise) break;
+    if (broken_off && score().over_noise(r.fitted.left_at_last()) > rules::near_noise) break;
     best_ = plainest_like(r, round.rivals).fitted;
     return true;
   }
@@ -372,7 +375,8 @@ bool Selection::add_one(int step) {
 bool Selection::add_two(int step) {
   constexpr std::size_t beginnings = 3;
   const bool room = static_cast<int>(names_of(best_.model).size()) + 2 <= state_.options.max_steps;
-  if (!room || state_.stopped() || rounds_.empty() || score().over_noise(best_.left) <= rules::near_noise) return false;
+  if (!room || state_.stopped() || rounds_.empty() || score().over_noise(best_.left_at_last()) <= rules::near_noise)
+    return false;
   const TableModel before = best_;
   std::vector<TableModel> first;
   std::set<const Effect*> names;
@@ -413,7 +417,10 @@ void Selection::run(const std::function<bool(const TableModel&)>& is_over) {
   const int most = 3 * state_.options.max_steps + axes;  // a name or two may leave for each that stays
   for (int step = 1; step <= most && !state_.stopped(); ++step) {
     if (!add_one(step) && !add_two(step + 1) && !in_two()) break;
-    while (!state_.stopped() && leave_out()) continue;
+    {
+      const StopScope to_its_end(nullptr);  // what is not needed is not claimed, however little time there was
+      while (leave_out()) continue;
+    }
     if (best_.model.placed.empty()) break;
     for (int turn = 0; turn < state_.options.max_steps && !state_.stopped() && exchange();) ++turn;
     if (!state_.stopped() && is_over(best_)) break;

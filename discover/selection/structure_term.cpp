@@ -48,8 +48,8 @@ class OnModel {
       : evidence_(*state.evidence),
         score_(score),
         base_(base),
-        rows_(left_rows(evidence_, base.model.prediction, base.weights)),
-        search_(find_structures(evidence_, base.model.prediction, state.context.threads, Where::all_recordings)) {}
+        rows_(left_rows(evidence_, base.model.unrounded(), base.weights)),
+        search_(find_structures(evidence_, base.model.unrounded(), state.context.threads, Where::all_recordings)) {}
 
   const StructureSearch& search() const { return search_; }
 
@@ -87,7 +87,7 @@ class OnModel {
   const ResidualParts& parts_of(int output) {
     const auto known = parts_.find(output);
     if (known != parts_.end()) return known->second;
-    return parts_.try_emplace(output, evidence_, base_.model.prediction, output).first->second;
+    return parts_.try_emplace(output, evidence_, base_.model.unrounded(), output).first->second;
   }
 
   const Evidence& evidence_;

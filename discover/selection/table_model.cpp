@@ -84,11 +84,15 @@ FitSetting FitSetting::with(std::map<std::string, double> other_numbers) const {
 }
 
 double score_of(const BlockScore& score, const TableModel& f) {
-  return score.fit_of(f.left) - score.price(f.parameters) - all_tried(f) - 0.5 * f.moved;
+  return score.fit_of(f.left) + f.by_levels - score.price(f.parameters) - all_tried(f) - 0.5 * f.moved;
 }
 
 double tie_score_of(const BlockScore& score, const TableModel& f) {
-  return score.fit_of(f.left) - f.parameters - all_tried(f) - 0.5 * f.moved;
+  return score.fit_of(f.left) + f.by_levels - f.parameters - all_tried(f) - 0.5 * f.moved;
+}
+
+double raised_by_levels(const BlockScore& score, const TableModel& f) {
+  return f.rounded ? score.fit_of(*f.rounded) - score.fit_of(f.left) : 0;
 }
 
 TableModel measured(const FitSetting& setting, CandidateModel model, Numbers numbers, NoiseModel weights,
@@ -101,7 +105,8 @@ TableModel measured(const FitSetting& setting, CandidateModel model, Numbers num
     if (const auto known = tried.find(s.effect->id); known != tried.end()) f.tried.insert(*known);
   if (!f.model.ok) return f;
   const Evidence& evidence = *setting.state.evidence;
-  f.left = left_sums(left_rows(evidence, f.model.prediction, f.weights));
+  f.left = left_sums(left_rows(evidence, f.model.unrounded(), f.weights));
+  if (f.model.before_rounding) f.rounded = left_sums(left_rows(evidence, f.model.prediction, f.weights));
   f.parameters = numbers_of(f.model, evidence.recordings().size());
   for (const auto& e : f.model.fit.estimates)
     if (const auto n = setting.numbers.find(e.path); n != setting.numbers.end())
@@ -140,6 +145,7 @@ TableModel refitted(const FitSetting& setting, const FitContext& context, const 
     CandidateModel next = refit_afresh(context_for(setting, context, weights, numbers), now.model, Effort::full);
     if (!next.ok) return i > 0 ? now : TableModel{};
     now = measured(setting, std::move(next), numbers, std::move(weights), from.tried);
+    now.by_levels = from.by_levels;
   }
   return now;
 }
@@ -157,6 +163,8 @@ TableModel with_term(const FitSetting& setting, const FitContext& context, const
   if (!term.empty()) tried[term.front().effect->id] = ln_tried;
   TableModel f = measured(setting, std::move(c), from.numbers, weights, tried);
   if (!f.ok()) return f;
+  // Levels are told from noise once, where all else is as it was: what is found later hardly moves what they round.
+  f.by_levels = from.by_levels > 0 || !setting.score ? from.by_levels : raised_by_levels(*setting.score, f);
   // A law that is off is the model without it: a search that ends above that has not found where it begins.
   if (chi2_of(weights, f.left) > chi2_of(weights, from.left)) f.left = from.left;
   return f;
@@ -168,7 +176,9 @@ TableModel without_term(const FitSetting& setting, const FitContext& context, co
   for (auto i = term.rbegin(); i != term.rend() && rest.ok; ++i) rest = without(context, rest, *i);
   NoiseModel weights = weights_of(setting, from);
   if (rest.ok) rest = refit(context_for(setting, context, weights, Numbers::written), rest, Effort::full);
-  return measured(setting, std::move(rest), from.numbers, std::move(weights), from.tried);
+  TableModel f = measured(setting, std::move(rest), from.numbers, std::move(weights), from.tried);
+  f.by_levels = f.rounded ? from.by_levels : 0;
+  return f;
 }
 
 double sigma_by_witnesses(const ParameterEstimate& estimate) {

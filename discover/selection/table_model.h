@@ -5,6 +5,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,8 +22,12 @@ struct TableModel {
   CandidateModel model;
   Numbers numbers = Numbers::written;
   NoiseModel weights;  ///< it was fitted by these
-  LeftSums left;
-  int parameters = 0;  ///< all free numbers of the laws
+  LeftSums left;       ///< before columns round it: see CandidateModel::before_rounding
+  /// By what it predicts, where columns round it to their levels.
+  std::optional<LeftSums> rounded{};
+  const LeftSums& left_at_last() const { return rounded ? *rounded : left; }
+  double by_levels = 0;  ///< by how much these levels raised the score when they were found
+  int parameters = 0;    ///< all free numbers of the laws
   /// Of each of its effects, by id: ln(places times laws that were tried of it).
   std::map<std::string, double> tried{};
   double moved = 0;  ///< sum of ((x - x0)/(0.1 x0))^2 over the user's numbers
@@ -68,6 +73,8 @@ double tie_score_of(const BlockScore& score, const TableModel& fitted);
 /// What is left, and what it cost, of a model that was fitted. Of `tried` what stands in it counts.
 TableModel measured(const FitSetting& setting, CandidateModel model, Numbers numbers, NoiseModel weights,
                     const std::map<std::string, double>& tried);
+/// By how much the levels of columns raise its score.
+double raised_by_levels(const BlockScore& score, const TableModel& fitted);
 
 /// A workshop that weighs outputs by these weights, with the user's numbers let go or not.
 FitContext context_for(const FitSetting& setting, const FitContext& context, const NoiseModel& weights,
