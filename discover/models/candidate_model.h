@@ -49,8 +49,8 @@ struct CandidateModel {
   /// Where the recordings begin, as DataModel::start_of(), by the state: [recording]. A further effect begins there.
   std::vector<std::map<std::string, double>> starts;
   Prediction prediction;  ///< train and validate recordings
-  /// The same before columns round it to their levels, where some do: what was rounded moves in jumps, and whoever
-  /// happens to move one the right way explains nothing.
+  /// The same before columns round it to their levels, where some do, and as near to what they read as half a level
+  /// allows: what was rounded moves in jumps, and whoever happens to move one the right way explains nothing.
   std::optional<Prediction> before_rounding{};
   const Prediction& unrounded() const { return before_rounding ? *before_rounding : prediction; }
   ModelError error_of;  ///< filled in by whoever holds the evidence

@@ -75,6 +75,34 @@ Trial unrounded(const CandidateModel& c, const Program& program, Trial values) {
   return values;
 }
 
+/// What it says before columns are rounded, moved towards what is read by half a level at most: anything within half a
+/// level of a reading is read so, and a saw tooth that rounding makes is no effect.
+Prediction nearest_to_levels(const CandidateModel& c, DataModel& model, const Trial& values,
+                             const std::vector<int>& recordings) {
+  const Program& program = model.program();
+  Prediction p = model.predict(unrounded(c, program, values), recordings);
+  if (!p.ok) return p;
+  for (const auto& silent : silent_levels(c, program)) {
+    const ParameterInfo& info = program.parameters[static_cast<std::size_t>(silent.parameter)];
+    double level = info.value;
+    for (const auto& v : values)
+      if (v.parameter == silent.parameter) level = v.value;
+    for (const int o : outputs_behind(program, info.block))
+      for (int k = 0; k < static_cast<int>(model.outputs().size()); ++k) {
+        if (model.outputs()[static_cast<std::size_t>(k)] != program.output_names[static_cast<std::size_t>(o)]) continue;
+        if (model.zero_per_recording(k)) continue;  // nobody knows where the levels lie
+        for (const int r : recordings) {
+          if (!p.initial[static_cast<std::size_t>(r)].empty()) continue;  // it begins anywhere
+          Rows& y = p.y[static_cast<std::size_t>(r)][static_cast<std::size_t>(k)];
+          const Rows& read = model.measured(r, k);
+          for (std::size_t i = 0; i < read.size() && i < y.size(); ++i)
+            y[i] += std::clamp(read[i] - y[i], -level / 2, level / 2);
+        }
+      }
+  }
+  return p;
+}
+
 void predict(const FitContext& context, CandidateModel& c, DataModel& model, const Trial& values) {
   const std::vector<Role> judged{Role::train, Role::validate};
   const long before = model.runs();
@@ -84,7 +112,7 @@ void predict(const FitContext& context, CandidateModel& c, DataModel& model, con
   if (model.starts_are_searched()) improve_starts(model, *judge, values, model.recordings(judged));
   c.prediction = model.predict(values, model.recordings(judged));
   if (std::any_of(c.placed.begin(), c.placed.end(), reads_off_column))
-    c.before_rounding = model.predict(unrounded(c, model.program(), values), model.recordings(judged));
+    c.before_rounding = nearest_to_levels(c, model, values, model.recordings(judged));
   if (free_starts && c.prediction.ok) keep_starts(c, model, *judge);
   c.runs += model.runs() - before;
   c.ok = c.prediction.ok;

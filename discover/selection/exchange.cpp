@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "discover/search/ties.h"
+#include "discover/selection/joint_step.h"
 #include "discover/selection/selection.h"
 
 namespace hysteron {
@@ -40,7 +41,11 @@ void Selection::fit_on(const TableModel& rest, std::vector<Addition>& rivals) {
     const std::size_t law = rivals[k].tried.law;
     const TableModel f = with_term(setting_, context, rest, term_of(rivals[k], law),
                                    ln_tried(rivals, *rivals[k].tried.effect), Effort::full);
-    if (f.ok()) answers[k] = {{k, law, refitted(setting_, context, f, best_.numbers)}};
+    if (!f.ok()) return false;
+    const double most = most_by_joint_fit(setting_, context, f, best_.numbers);
+    const double as_tie = most - score_of(f) + tie_score_of(score(), f);
+    const bool may_tie = as_tie > tie_score_of(score(), best_) - rules::tie;
+    answers[k] = {{k, law, may_tie ? refitted(setting_, context, f, best_.numbers) : f}};
     return false;
   });
   take_up(rivals, std::move(answers));

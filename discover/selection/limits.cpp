@@ -1,6 +1,5 @@
 #include "discover/selection/limits.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,102 +8,27 @@
 #include <set>
 #include <utility>
 
-#include "discover/models/fit_candidate_model.h"
+#include "discover/selection/seen.h"
 #include "engine/diagram/error.h"
-#include "fit/estimate/starts.h"
+#include "fit/numerics/dense.h"
 
 namespace hysteron {
 namespace {
 
 constexpr double one_sided = 1.644853626951473;  // 95 % of a normal distribution
-constexpr double a_little = 1e-3;                // of a number, for derivatives
 constexpr double agrees = 0.1;                   // of the size at which its effect was looked at, and of the limit
 constexpr int most_looks = 6;
-
-using Column = std::vector<double>;  ///< whitened rows of all recordings, one behind the other
-
-/// A model of the recordings, seen through the weights of the score. Rows are multiplied by `scale`.
-class Seen {
- public:
-  Seen(const FitContext& context, const CandidateModel& of, const Diagram& diagram, double scale)
-      : model_(compile(diagram, *context.registry), context.data,
-               accuracy(context, *compile(diagram, *context.registry), Effort::full)),
-        judge_(model_, noise_of(context, model_)),
-        recordings_(train_and_validate(*context.data)),
-        scale_(scale) {
-    begin_as_found(of, model_);
-    for (const auto& v : of.of_recordings)
-      if (const auto* info = program().find_parameter(v.path); info != nullptr)
-        fixed_.push_back({parameter_index(program(), v.path), v.value, v.recording});
-    model_.choose_substeps(fixed_, noise_of(context, model_).white());
-  }
-
-  const Program& program() const { return model_.program(); }
-  /// Nothing where it cannot be simulated.
-  std::optional<Column> left(const Trial& values) {
-    Trial all = fixed_;
-    all.insert(all.end(), values.begin(), values.end());
-    const Prediction p = model_.predict(all, recordings_);
-    if (!p.ok) return std::nullopt;
-    Column rows;
-    for (const int r : recordings_) {
-      for (const double v : judge_.residual(model_, p, r)) rows.push_back(scale_ * v);
-    }
-    return rows;
-  }
-
- private:
-  DataModel model_;
-  Judge judge_;
-  std::vector<int> recordings_;
-  double scale_;
-  Trial fixed_;
-};
-
-Column per_unit(const Column& before, const Column& after, double by) {
-  Column change(before.size());
-  for (std::size_t i = 0; i < change.size(); ++i) change[i] = (before[i] - after[i]) / by;
-  return change;
-}
-
-double dot(const Column& a, const Column& b) {
-  double sum = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
-  return sum;
-}
-
-/// A number that the fit of an effect would move, too.
-struct Beside {
-  Column takes_away;  ///< per unit
-  double known = 0;   ///< 1/sigma^2 of what is known of it, and how far it is from that
-  double off = 0;
-};
 
 /// What is fitted to what is left, one of them the effect.
 struct Amount {
   double value = 0, sigma = 0;
 };
-std::optional<Amount> amount_of(const Column& effect, const Column& left, const std::vector<Beside>& beside) {
-  const auto n = static_cast<Eigen::Index>(beside.size()) + 1;
-  const auto column = [&](Eigen::Index i) -> const Column& {
-    return i == 0 ? effect : beside[static_cast<std::size_t>(i - 1)].takes_away;
-  };
-  Eigen::VectorXd scale(n), right(n);
-  Eigen::MatrixXd normal(n, n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    for (Eigen::Index k = 0; k <= i; ++k) normal(i, k) = normal(k, i) = dot(column(i), column(k));
-    right(i) = dot(column(i), left);
-    if (i == 0) continue;
-    const Beside& b = beside[static_cast<std::size_t>(i - 1)];
-    normal(i, i) += b.known;
-    right(i) -= b.known * b.off;
-  }
-  for (Eigen::Index i = 0; i < n; ++i) scale(i) = normal(i, i) > 0 ? 1 / std::sqrt(normal(i, i)) : 0;
-  if (!(scale(0) > 0)) return std::nullopt;
-  const Eigen::MatrixXd scaled = scale.asDiagonal() * normal * scale.asDiagonal();
-  const Eigen::MatrixXd inverse = scaled.completeOrthogonalDecomposition().pseudoInverse();
-  const Eigen::VectorXd values = scale.asDiagonal() * (inverse * (scale.asDiagonal() * right));
-  return Amount{values(0), scale(0) * std::sqrt(std::max(inverse(0, 0), 0.0))};
+std::optional<Amount> amount_of(const Column& effect, const Column& left, const std::vector<Moving>& beside) {
+  std::vector<Moving> all{{effect, 0, 0}};
+  all.insert(all.end(), beside.begin(), beside.end());
+  const LinearFit fit = fit_linearly(all, left);
+  if (!(fit.sigma.front() > 0)) return std::nullopt;
+  return Amount{fit.value.front(), fit.sigma.front()};
 }
 
 class Limits {
@@ -145,7 +69,7 @@ class Limits {
   double scale_to_noise(const Selection& selection) const {
     Seen seen(context_, selected_.model, selected_.model.diagram, 1);
     const auto left = seen.left({});
-    const double chi2 = left ? dot(*left, *left) : 0;
+    const double chi2 = left ? dot(left->data(), left->data(), left->size()) : 0;
     return chi2 > 0 ? std::sqrt(selection.score().n_eff() / chi2) : 1;
   }
   /// In sizes with which the law begins; nothing where no size is the limit that it gives itself.
@@ -201,7 +125,7 @@ class Limits {
   }
 
   /// A number of the selected model.
-  void add(std::vector<Beside>& list, const std::string& path, double least, double written = 0) {
+  void add(std::vector<Moving>& list, const std::string& path, double least, double written = 0) {
     const ParameterInfo* info = base_.program().find_parameter(path);
     if (info == nullptr) return;
     const double by = a_little * std::max(std::abs(info->value), least);
@@ -209,12 +133,12 @@ class Limits {
     const int index = parameter_index(base_.program(), path);
     const auto moved = base_.left({{index, info->value + by, -1}});
     if (!moved) return;
-    Beside b{per_unit(left_, *moved, by)};
+    Moving b{per_unit(left_, *moved, by)};
     if (written != 0) b.known = 1 / std::pow(setting_.known_to(path) * written, 2), b.off = info->value - written;
     list.push_back(std::move(b));
   }
   /// A number of the law that makes up for its size.
-  void add(std::vector<Beside>& list, Seen& with, const std::string& name, const Law& law, double size,
+  void add(std::vector<Moving>& list, Seen& with, const std::string& name, const Law& law, double size,
            const LawParameter& p, const Column& left) const {
     Trial trial = values_at(with.program(), name, law, size);
     const int index = parameter_index(with.program(), parameter_path(name, law, p));
@@ -246,7 +170,7 @@ class Limits {
   Seen base_;
   const FitSetting& setting_;
   Column left_;
-  std::vector<Beside> beside_;
+  std::vector<Moving> beside_;
 };
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "discover/models/fit_cost.h"
+#include "discover/selection/joint_step.h"
 #include "discover/wiring/wiring.h"
 #include "engine/diagram/stop.h"
 
@@ -191,6 +192,13 @@ void Selection::fit_first_laws(std::vector<Addition>& rivals, int step) {
   take_up(rivals, std::move(answers));
 }
 
+/// May the model, all of it fitted together, be claimed, and come within a tie of what is ahead (tie_score_of())?
+bool Selection::may_win(const TableModel& f, const FitContext& context, Numbers numbers, double ahead) const {
+  const double most = most_by_joint_fit(setting_, context, f, numbers);
+  const double as_tie = most - score_of(f) + tie_score_of(score(), f);
+  return most > score_of(best_) + rules::by_score && as_tie > ahead - rules::tie;
+}
+
 /// Together with all that stands and with the user's numbers, the likeliest first, until only noise is left. Where
 /// others have been fitted so, of the rest only the first and those that explain more than the best of the others; of
 /// the slowest only those that explain more than the others did before their numbers were let go.
@@ -201,26 +209,39 @@ void Selection::fit_with_numbers(std::vector<Addition>& rivals, const std::vecto
   double best = -std::numeric_limits<double>::infinity(), best_at_first = best;
   if (race) best = score_of(others->front().fitted);
   for (const auto& f : others_at_first) best_at_first = std::max(best_at_first, score_of(f));
+  const Numbers numbers = setting_.numbers.empty() ? Numbers::written : Numbers::let_go;
+  double least = score().over_noise(best_.left_at_last());
+  double ahead = race ? tie_score_of(score(), others->front().fitted) : best_at_first;
+  for (const auto& r : rivals)
+    if (r.fitted.ok()) {
+      least = std::min(least, score().over_noise(r.fitted.left_at_last()));
+      ahead = std::max(ahead, tie_score_of(score(), r.fitted));
+    }
+  const bool only_noise = least < rules::near_noise;
+  const auto is_hopeless = [&](std::size_t i, const FitContext& context) {
+    if (!only_noise && i < at_once) return false;  // to first order holds near what is right
+    return !may_win(rivals[i].fitted, context, numbers, ahead);
+  };
   const auto is_asked = [&](std::size_t i) {
     const Addition& r = rivals[i];
     if (!race) return true;
     return r.slowness < slowest ? i < finalists || score_of(r.fitted) > best : score_of(r.fitted) > best_at_first;
   };
-  const Numbers numbers = setting_.numbers.empty() ? Numbers::written : Numbers::let_go;
   for (std::size_t first = 0; first < rivals.size() && !state_.stopped(); first += at_once) {
     const std::size_t n = std::min(at_once, rivals.size() - first);
     std::vector<FitsOfRival> answers(n);
     state_.side_by_side(n, [&](std::size_t i, const FitContext& context) {
       const Addition& rival = rivals[first + i];
-      if (rival.fitted.ok() && is_asked(first + i))
+      if (rival.fitted.ok() && is_asked(first + i) && !is_hopeless(first + i, context))
         answers[i] = {{first + i, rival.tried.law, refitted(setting_, context, rival.fitted, numbers, few_renewals)}};
       return false;
     });
     take_up(rivals, std::move(answers));
-    double least = score().over_noise(best_.left_at_last());
     for (std::size_t i = 0; i < n; ++i)
-      if (const TableModel& f = rivals[first + i].fitted; f.ok())
+      if (const TableModel& f = rivals[first + i].fitted; f.ok()) {
+        ahead = std::max(ahead, tie_score_of(score(), f));
         least = std::min(least, score().over_noise(f.left_at_last()));
+      }
     if (least < rules::near_noise) break;
   }
   sort(rivals);
@@ -370,6 +391,25 @@ bool Selection::add_one(int step) {
   return false;
 }
 
+namespace {
+
+/// The best model steps back for others to be searched beside; it stands again where that search is broken off.
+struct StandsAgain {
+  explicit StandsAgain(TableModel& best) : model(best), best_(best) {}
+  ~StandsAgain() {
+    if (!found) best_ = std::move(model);
+  }
+  StandsAgain(const StandsAgain&) = delete;
+  StandsAgain& operator=(const StandsAgain&) = delete;
+  TableModel model;
+  bool found = false;  ///< another one took its place
+
+ private:
+  TableModel& best_;
+};
+
+}  // namespace
+
 /// Where more than noise is left and nothing is claimed alone: one of the best of the last round and one more effect on
 /// it. Each shows its worth only beside the other; who does not, leaves again (leave_out).
 bool Selection::add_two(int step) {
@@ -377,7 +417,7 @@ bool Selection::add_two(int step) {
   const bool room = static_cast<int>(names_of(best_.model).size()) + 2 <= state_.options.max_steps;
   if (!room || state_.stopped() || rounds_.empty() || score().over_noise(best_.left_at_last()) <= rules::near_noise)
     return false;
-  const TableModel before = best_;
+  StandsAgain before(best_);
   std::vector<TableModel> first;
   std::set<const Effect*> names;
   for (const auto& r : rounds_.back().rivals)
@@ -398,9 +438,10 @@ bool Selection::add_two(int step) {
     if (best && score_of(best->rivals.front().fitted) >= score_of(rivals.front().fitted)) continue;
     best = Round{one, std::move(rivals)};
   }
-  best_ = before;
-  if (!best || state_.stopped() || score_of(best->rivals.front().fitted) <= score_of(before) + rules::by_score)
+  best_ = before.model;
+  if (!best || state_.stopped() || score_of(best->rivals.front().fitted) <= score_of(best_) + rules::by_score)
     return false;
+  before.found = true;
   best_ = best->rivals.front().fitted;
   for (auto& r : best->rivals) r.tried.candidate = r.fitted.model;
   rounds_.push_back(std::move(*best));

@@ -58,6 +58,7 @@ class Selection {
   void fit_richer_laws(std::vector<Addition>& rivals);
   void fit_with_numbers(std::vector<Addition>& rivals, const std::vector<Addition>* others,
                         const std::vector<TableModel>& others_at_first);
+  bool may_win(const TableModel& f, const FitContext& context, Numbers numbers, double ahead) const;
   void settle_best(std::vector<Addition>& rivals);
   void sort(std::vector<Addition>& rivals) const;
   TableModel others_as_they_are(const std::vector<std::size_t>& term) const;

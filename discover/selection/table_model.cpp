@@ -45,7 +45,9 @@ CandidateModel refit_afresh(FitContext context, const CandidateModel& c, Effort 
   return next;
 }
 
-double chi2_of(const NoiseModel& weights, const LeftSums& left) {
+}  // namespace
+
+double squares_by(const NoiseModel& weights, const LeftSums& left) {
   double chi2 = 0;
   for (const auto& l : left) {
     const auto& rms = weights.outputs[static_cast<std::size_t>(l.output)].pieces[static_cast<std::size_t>(l.recording)];
@@ -53,6 +55,8 @@ double chi2_of(const NoiseModel& weights, const LeftSums& left) {
   }
   return chi2;
 }
+
+namespace {
 
 double all_tried(const TableModel& f) {
   double sum = 0;
@@ -164,9 +168,9 @@ TableModel with_term(const FitSetting& setting, const FitContext& context, const
   TableModel f = measured(setting, std::move(c), from.numbers, weights, tried);
   if (!f.ok()) return f;
   // Levels are told from noise once, where all else is as it was: what is found later hardly moves what they round.
-  f.by_levels = from.by_levels > 0 || !setting.score ? from.by_levels : raised_by_levels(*setting.score, f);
+  f.by_levels = from.rounded || !setting.score ? from.by_levels : raised_by_levels(*setting.score, f);
   // A law that is off is the model without it: a search that ends above that has not found where it begins.
-  if (chi2_of(weights, f.left) > chi2_of(weights, from.left)) f.left = from.left;
+  if (squares_by(weights, f.left) > squares_by(weights, from.left)) f.left = from.left;
   return f;
 }
 

@@ -26,7 +26,7 @@ struct TableModel {
   /// By what it predicts, where columns round it to their levels.
   std::optional<LeftSums> rounded{};
   const LeftSums& left_at_last() const { return rounded ? *rounded : left; }
-  double by_levels = 0;  ///< by how much these levels raised the score when they were found
+  double by_levels = 0;  ///< what the score was by what is rounded, over that by `left`, when these levels were found
   int parameters = 0;    ///< all free numbers of the laws
   /// Of each of its effects, by id: ln(places times laws that were tried of it).
   std::map<std::string, double> tried{};
@@ -73,7 +73,7 @@ double tie_score_of(const BlockScore& score, const TableModel& fitted);
 /// What is left, and what it cost, of a model that was fitted. Of `tried` what stands in it counts.
 TableModel measured(const FitSetting& setting, CandidateModel model, Numbers numbers, NoiseModel weights,
                     const std::map<std::string, double>& tried);
-/// By how much the levels of columns raise its score.
+/// How much higher its score is by what columns round.
 double raised_by_levels(const BlockScore& score, const TableModel& fitted);
 
 /// A workshop that weighs outputs by these weights, with the user's numbers let go or not.
@@ -81,6 +81,9 @@ FitContext context_for(const FitSetting& setting, const FitContext& context, con
                        Numbers numbers);
 /// By what the model leaves itself: see BlockScore::weights().
 NoiseModel weights_of(const FitSetting& setting, const TableModel& model);
+
+/// Squares of what is left by these weights.
+double squares_by(const NoiseModel& weights, const LeftSums& left);
 
 /// Fits again from where the model stands, by what it leaves itself, until that changes by less than 5 %: far from the
 /// truth all weights are wrong, and the user's numbers are held too firmly by what is written. At most `renewals`
