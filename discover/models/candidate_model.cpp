@@ -37,7 +37,7 @@ Prediction predicted_with(const FitContext& context, const CandidateModel& c, Ef
   Trial trial;
   for (const auto& v : c.of_recordings)
     trial.push_back({parameter_index(*c.program, v.path), silent(v) ? 0 : v.value, v.recording});
-  DataModel model(c.program, context.data, accuracy(context, *c.program, effort));
+  DataModel model = searched_model(context, c.program, effort);
   begin_as_found(c, model);
   if (context.evidence != nullptr) model.choose_substeps(trial, noise_of(context, model).white());
   return model.predict(trial, train_and_validate(*context.data));

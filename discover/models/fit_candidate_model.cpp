@@ -120,9 +120,8 @@ void predict(const FitContext& context, CandidateModel& c, DataModel& model, con
 }
 
 DataModel model_of(const FitContext& context, const CandidateModel& c, const ProgramPointer& program, Effort effort) {
-  DataModelOptions options = accuracy(context, *program, effort);
-  if (const auto known = c.cuts.find(program->output_names); known != c.cuts.end()) options.begin_with = known->second;
-  DataModel model(program, context.data, options);
+  const auto known = c.cuts.find(program->output_names);
+  DataModel model = searched_model(context, program, effort, known == c.cuts.end() ? nullptr : known->second);
   begin_as_found(c, model);
   return model;
 }
@@ -367,9 +366,22 @@ void begin_as_found(const CandidateModel& c, DataModel& model) {
   }
 }
 
+DataModel searched_model(const FitContext& context, const ProgramPointer& program, Effort effort,
+                         std::shared_ptr<const Cuts> begin_with) {
+  DataModelOptions options = accuracy(context, *program, effort);
+  options.begin_with = std::move(begin_with);
+  DataModel model(program, context.data, options);
+  if (effort == Effort::final || !model.goes_by_points()) return model;
+  const DataModelOptions by_points = accuracy(context, *program, effort, cost_of_a_point);
+  if (by_points.max_substeps == options.max_substeps) return model;
+  options.max_substeps = by_points.max_substeps;
+  options.bdf_otherwise = by_points.bdf_otherwise;
+  return DataModel(program, context.data, options);
+}
+
 /// Nonlinear states in rows of slow recordings need many substeps, and are still ten times quicker than BDF. In long
 /// recordings a law so stiff that it needs more is simulated as finely as time allows until it is claimed.
-DataModelOptions accuracy(const FitContext& context, const Program& program, Effort effort) {
+DataModelOptions accuracy(const FitContext& context, const Program& program, Effort effort, double cost_of_a_step) {
   DataModelOptions options;
   options.threads = context.threads;
   options.max_substeps = 1024;
@@ -377,8 +389,9 @@ DataModelOptions accuracy(const FitContext& context, const Program& program, Eff
   for (const auto& r : context.data->recordings)
     if (r.role == Role::train) rows += static_cast<double>(r.last);
   options.bdf_otherwise = context.bdf_otherwise;
-  const double work = rows * work_of_a_step(program);
-  const double fewest = 32 / work_of_a_step(program);
+  const double of_a_step = cost_of_a_step * work_of_a_step(program);
+  const double work = rows * of_a_step;
+  const double fewest = 32 / of_a_step;
   while (effort != Effort::final && options.max_substeps > fewest &&
          options.max_substeps * work > context.simulation_steps) {
     options.max_substeps /= 2;

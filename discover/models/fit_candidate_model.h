@@ -16,7 +16,10 @@ void fit_candidate_model(const FitContext& context, CandidateModel& c, Effort ef
 void begin_as_found(const CandidateModel& c, DataModel& model);
 
 /// How finely candidates are simulated.
-DataModelOptions accuracy(const FitContext& context, const Program& program, Effort effort);
+DataModelOptions accuracy(const FitContext& context, const Program& program, Effort effort, double cost_of_a_step = 1);
+/// The program so simulated on the recordings of the context; coarser where each step is one of a single point.
+DataModel searched_model(const FitContext& context, const ProgramPointer& program, Effort effort,
+                         std::shared_ptr<const Cuts> begin_with = nullptr);
 std::vector<int> train_and_validate(const DataSet& data);
 /// Noise of the outputs of `model`, which may be some of those that are judged.
 NoiseModel noise_of(const FitContext& context, const DataModel& model);

@@ -23,10 +23,6 @@ void thin_scans(std::vector<FreeParameter>& free, double most) {
   }
 }
 
-/// Steps of many rows at once that one of a single point takes the time of (a delayed held drive beside friction, and a
-/// linear plant).
-constexpr double cost_of_a_point = 6;
-
 /// How many of the free parameters are found by linear least squares.
 double linear_ones(const CandidateModel& c, const std::vector<FreeParameter>& free) {
   std::vector<int> parameters;

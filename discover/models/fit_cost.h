@@ -13,6 +13,10 @@ inline constexpr double screening_steps = 5e6;
 /// Steps that may be spent on the fit of one candidate with nonlinear states: some seconds.
 inline constexpr double fit_steps = 4e7;
 
+/// Steps of many rows at once that one of a single point takes the time of (a delayed held drive beside friction, and a
+/// linear plant).
+inline constexpr double cost_of_a_point = 6;
+
 /// What a step of the program costs, in steps of one mass or tank: elements that remember beside a mass are asked at
 /// each place that it passes.
 double work_of_a_step(const Program& program);

@@ -35,7 +35,7 @@ Prediction from_rest(const SearchState& free, const DataSet& given, const TableM
   FitContext context = free.context;
   context.data = std::make_shared<const DataSet>(as_found(given, some_move));
   const auto program = compile(model.model.diagram, free.registry);
-  DataModel data_model(program, context.data, accuracy(context, *program, Effort::full));
+  DataModel data_model = searched_model(context, program, Effort::full);
   return data_model.predict({}, free.evidence->recordings());
 }
 

@@ -11,8 +11,7 @@
 namespace hysteron {
 
 Seen::Seen(const FitContext& context, const CandidateModel& of, const Diagram& diagram, double scale)
-    : model_(compile(diagram, *context.registry), context.data,
-             accuracy(context, *compile(diagram, *context.registry), Effort::full)),
+    : model_(searched_model(context, compile(diagram, *context.registry), Effort::full)),
       judge_(model_, noise_of(context, model_)),
       recordings_(train_and_validate(*context.data)),
       scale_(scale) {

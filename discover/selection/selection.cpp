@@ -251,9 +251,10 @@ void Selection::fit_with_numbers(std::vector<Addition>& rivals, const std::vecto
 void Selection::settle_best(std::vector<Addition>& rivals) {
   const std::size_t n = std::min(finalists, rivals.size());
   std::vector<FitsOfRival> answers(n);
+  const double ahead = n > 0 && rivals.front().fitted.ok() ? tie_score_of(score(), rivals.front().fitted) : 0;
   state_.side_by_side(n, [&](std::size_t i, const FitContext& context) {
     const TableModel& f = rivals[i].fitted;
-    if (f.ok() && f.numbers == Numbers::let_go)
+    if (f.ok() && f.numbers == Numbers::let_go && (i == 0 || may_win(f, context, f.numbers, ahead)))
       answers[i] = {{i, rivals[i].tried.law, refitted(setting_, context, f, f.numbers)}};
     return false;
   });
@@ -319,9 +320,12 @@ void Selection::fit_richer_laws(std::vector<Addition>& rivals) {
       if (a.fitted.ok() && (is_quick(a) || type_of(a) == type_of(*best[a.rival]))) asked.push_back(&a);
   const Numbers numbers = setting_.numbers.empty() ? Numbers::written : Numbers::let_go;
   std::vector<FitsOfRival> settled(asked.size());
+  double ahead = asked.empty() ? 0 : tie_score_of(score(), rivals.front().fitted);
+  for (const auto* a : asked) ahead = std::max(ahead, tie_score_of(score(), a->fitted));
   state_.side_by_side(asked.size(), [&](std::size_t k, const FitContext& context) {
     const FitOfRival& a = *asked[k];
-    settled[k] = {{a.rival, a.law, refitted(setting_, context, a.fitted, numbers, few_renewals)}};
+    const bool may = may_win(a.fitted, context, numbers, ahead);
+    settled[k] = {{a.rival, a.law, may ? refitted(setting_, context, a.fitted, numbers, few_renewals) : a.fitted}};
     return false;
   });
   take_up(rivals, std::move(settled));
