@@ -362,7 +362,8 @@ bool holds(const SearchState& all, const Search& part, const Told& told) {
     left.push_back(models.back().left);
   }
   const BlockScore score(*all.evidence, left);
-  for (auto& m : models) m.by_levels = raised_by_levels(score, m);
+  for (auto& m : models)
+    if (m.rounded) m.levels = std::make_shared<const LevelsFound>(LevelsFound{*m.rounded, m.left});
   for (std::size_t k = 0; k + 1 < models.size(); ++k)
     if (score_of(score, models[k + 1]) < score_of(score, models[k]) + rules::by_score) return false;
   const double left_in_part = selection.score().over_noise(selection.best().left_at_last());

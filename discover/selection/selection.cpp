@@ -62,7 +62,7 @@ TableModel without_prediction(const TableModel& f) {
   one.numbers = f.numbers;
   one.left = f.left;
   one.rounded = f.rounded;
-  one.by_levels = f.by_levels;
+  one.levels = f.levels;
   one.parameters = f.parameters;
   one.tried = f.tried;
   one.moved = f.moved;
@@ -93,7 +93,7 @@ Selection::Selection(SearchState& state, std::map<std::string, double> numbers)
 }
 
 void Selection::remember(const TableModel& fitted) {
-  if (fitted.ok()) left_.push_back(fitted.left);
+  if (fitted.ok() && !fitted.rounded) left_.push_back(fitted.left);  // within half a level no noise shows
 }
 
 void Selection::count_in(const LeftSums& left) {

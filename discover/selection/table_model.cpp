@@ -58,6 +58,10 @@ double squares_by(const NoiseModel& weights, const LeftSums& left) {
 
 namespace {
 
+double by_levels(const BlockScore& score, const TableModel& f) {
+  return f.levels ? score.fit_of(f.levels->rounded) - score.fit_of(f.levels->left) : 0;
+}
+
 double all_tried(const TableModel& f) {
   double sum = 0;
   for (const auto& [effect, ln_tried] : f.tried) sum += ln_tried;
@@ -88,15 +92,11 @@ FitSetting FitSetting::with(std::map<std::string, double> other_numbers) const {
 }
 
 double score_of(const BlockScore& score, const TableModel& f) {
-  return score.fit_of(f.left) + f.by_levels - score.price(f.parameters) - all_tried(f) - 0.5 * f.moved;
+  return score.fit_of(f.left) + by_levels(score, f) - score.price(f.parameters) - all_tried(f) - 0.5 * f.moved;
 }
 
 double tie_score_of(const BlockScore& score, const TableModel& f) {
-  return score.fit_of(f.left) + f.by_levels - f.parameters - all_tried(f) - 0.5 * f.moved;
-}
-
-double raised_by_levels(const BlockScore& score, const TableModel& f) {
-  return f.rounded ? score.fit_of(*f.rounded) - score.fit_of(f.left) : 0;
+  return score.fit_of(f.left) + by_levels(score, f) - f.parameters - all_tried(f) - 0.5 * f.moved;
 }
 
 TableModel measured(const FitSetting& setting, CandidateModel model, Numbers numbers, NoiseModel weights,
@@ -149,7 +149,7 @@ TableModel refitted(const FitSetting& setting, const FitContext& context, const 
     CandidateModel next = refit_afresh(context_for(setting, context, weights, numbers), now.model, Effort::full);
     if (!next.ok) return i > 0 ? now : TableModel{};
     now = measured(setting, std::move(next), numbers, std::move(weights), from.tried);
-    now.by_levels = from.by_levels;
+    now.levels = from.levels;
   }
   return now;
 }
@@ -168,7 +168,8 @@ TableModel with_term(const FitSetting& setting, const FitContext& context, const
   TableModel f = measured(setting, std::move(c), from.numbers, weights, tried);
   if (!f.ok()) return f;
   // Levels are told from noise once, where all else is as it was: what is found later hardly moves what they round.
-  f.by_levels = from.rounded || !setting.score ? from.by_levels : raised_by_levels(*setting.score, f);
+  f.levels = from.levels;
+  if (!f.levels && f.rounded) f.levels = std::make_shared<const LevelsFound>(LevelsFound{*f.rounded, f.left});
   // A law that is off is the model without it: a search that ends above that has not found where it begins.
   if (squares_by(weights, f.left) > squares_by(weights, from.left)) f.left = from.left;
   return f;
@@ -181,7 +182,7 @@ TableModel without_term(const FitSetting& setting, const FitContext& context, co
   NoiseModel weights = weights_of(setting, from);
   if (rest.ok) rest = refit(context_for(setting, context, weights, Numbers::written), rest, Effort::full);
   TableModel f = measured(setting, std::move(rest), from.numbers, std::move(weights), from.tried);
-  f.by_levels = f.rounded ? from.by_levels : 0;
+  if (f.rounded) f.levels = from.levels;
   return f;
 }
 

@@ -17,6 +17,12 @@ namespace hysteron {
 /// Numbers of the user's model, as written or let go.
 enum class Numbers { written, let_go };
 
+/// What a model left when the levels of a column were found in it, by what is rounded and by TableModel::left: the
+/// score of a model with levels is by that above the one of its `left`.
+struct LevelsFound {
+  LeftSums rounded, left;
+};
+
 /// One row of the model table.
 struct TableModel {
   CandidateModel model;
@@ -26,8 +32,8 @@ struct TableModel {
   /// By what it predicts, where columns round it to their levels.
   std::optional<LeftSums> rounded{};
   const LeftSums& left_at_last() const { return rounded ? *rounded : left; }
-  double by_levels = 0;  ///< what the score was by what is rounded, over that by `left`, when these levels were found
-  int parameters = 0;    ///< all free numbers of the laws
+  std::shared_ptr<const LevelsFound> levels{};
+  int parameters = 0;  ///< all free numbers of the laws
   /// Of each of its effects, by id: ln(places times laws that were tried of it).
   std::map<std::string, double> tried{};
   double moved = 0;  ///< sum of ((x - x0)/(0.1 x0))^2 over the user's numbers
@@ -73,9 +79,6 @@ double tie_score_of(const BlockScore& score, const TableModel& fitted);
 /// What is left, and what it cost, of a model that was fitted. Of `tried` what stands in it counts.
 TableModel measured(const FitSetting& setting, CandidateModel model, Numbers numbers, NoiseModel weights,
                     const std::map<std::string, double>& tried);
-/// How much higher its score is by what columns round.
-double raised_by_levels(const BlockScore& score, const TableModel& fitted);
-
 /// A workshop that weighs outputs by these weights, with the user's numbers let go or not.
 FitContext context_for(const FitSetting& setting, const FitContext& context, const NoiseModel& weights,
                        Numbers numbers);
