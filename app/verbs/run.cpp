@@ -100,7 +100,8 @@ void run_recordings(const Arguments& arguments, const Watch& watch, const Diagra
                     const std::string& type, Document& document, RunFacts& facts) {
   const DataSet data = read_dataset(arguments.text("--data"), arguments.list("--allow"));
   check_inputs(data, program);  // nothing is compared: a file that only drives will do
-  document.warnings = data.remarks;
+  for (const auto& remark : data.remarks)
+    if (remark != data.said_of_cut) document.warnings.push_back(remark);  // roles are for those who fit
   std::string seen;
   const std::size_t count = data.recordings.size();
   for (const auto& recording : data.recordings) {

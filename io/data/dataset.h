@@ -72,6 +72,7 @@ struct DataSet {
   std::map<std::string, ColumnNote> notes;  ///< by ColumnNote::to
   std::vector<Recording> recordings;
   bool single = false;               ///< one recording, cut at 60 % of its time into train and validate
+  std::string said_of_cut{};         ///< the remark on that, which means nothing where nobody fits
   std::vector<std::string> remarks;  ///< what the user must be told (e.g. how a single recording was cut)
 };
 

@@ -446,9 +446,10 @@ void cut_in_time(DataSet& data, std::size_t recording) {
   const auto note = [](Recording& r, const char* text) {
     r.remark += (r.remark.empty() ? "" : "; ") + std::string(text);
   };
-  data.remarks.push_back(fmt::format("{}, {}: the first 60 % of its time ({}) trains, the rest ({}) validates.",
-                                     data.single ? "There is a single recording" : "A recording is cut in time",
-                                     train.name, span(train), span(validate)));
+  data.said_of_cut = fmt::format("{}, {}: the first 60 % of its time ({}) trains, the rest ({}) validates.",
+                                 data.single ? "There is a single recording" : "A recording is cut in time", train.name,
+                                 span(train), span(validate));
+  data.remarks.push_back(data.said_of_cut);
   note(train, "first 60 % of the time");
   note(validate, "last 40 % of the time");
   data.recordings.push_back(std::move(validate));

@@ -265,6 +265,15 @@ TEST_F(Verbs, RunRefusesAFormOfTracesThatThereIsNot) {
   EXPECT_NE(outcome.err.find("write csv (text), or f64"), std::string::npos) << outcome.err;
 }
 
+TEST_F(Verbs, RunSaysNothingOfPartsThatTrain) {
+  const Outcome run = hysteron(folder_.path(), {"run", "diagram.json", "--data", "a.csv", "-o", "ran"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_EQ((run.out + run.err).find("60 %"), std::string::npos) << run.out << run.err;
+  const Outcome compared = hysteron(folder_.path(), {"compare", "diagram.json", "--data", "a.csv", "-o", "compared"});
+  ASSERT_EQ(compared.code, 0) << compared.err;
+  EXPECT_NE((compared.out + compared.err).find("60 %"), std::string::npos) << compared.out << compared.err;
+}
+
 TEST_F(Verbs, RunDrivesADiagramWithTheInputsOfRecordings) {
   const Outcome outcome = hysteron(folder_.path(), {"run", "diagram.json", "--data", "dataset.json", "-o", "out"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
