@@ -37,7 +37,7 @@ TEST(Refusal, TellsNumbersInTheUnitsInWhichTheyWereWritten) {
   EXPECT_EQ(
       said("N", "mass_with_friction",
            {{"mass", "1 kg"}, {"damping", "1 N s/m"}, {"coulomb", "5 mN"}, {"breakaway", "2 mN"}}, "b.position"),
-      "mass_with_friction \"b\": breakaway, 2 mN, is below coulomb, 5 mN; give at least coulomb, or none | correct "
+      "mass_with_friction \"b\": breakaway, 2 mN, is below coulomb, 5 mN; give at least coulomb, or leave it out | correct "
       "the parameter values");
   EXPECT_EQ(said("V", "saturation", {{"lower", "10 V"}, {"upper", "500 mV"}}),
             "saturation \"b\": lower, 10 V, is not below upper, 500 mV; exchange them | correct the parameter values");
