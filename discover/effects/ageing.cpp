@@ -71,8 +71,6 @@ Effect ageing() {
   e.side = Side::use;
   e.parameters = {{"per_decade", "", "part of the gain that a decade of use takes", "0.01 .. 0.05 (small-signal d33)"},
                   {"first", "cycles or h", "use at which the decades begin", "100 cycles, 1 h"}};
-  // A rig counts from some day on, and what a device had seen before is a guess: how far the gain had fallen when the
-  // first recording began is a gain of all the others, or one that changes with the room, which changes as days go by.
   e.look_alikes = {{"temperature_gain", "repeat_after_cycles", "ageing follows the cycles, not the temperature"},
                    {"calibration", "repeat_after_cycles", "a calibration is the same in all recordings"},
                    {"asymmetry", "repeat_after_cycles", "a curve is the same in all recordings"}};

@@ -150,8 +150,6 @@ Effect creep() {
       {"amplifier_lag", "step_hold", "a lag settles after a few time constants, creep goes on with log t"},
       {"sensor_lag", "step_hold", "a lag settles after a few time constants, creep goes on with log t"},
       {"dead_time", "low_frequencies", "a delay has no gain that falls with frequency"}};
-  // A creep over many decades lags by the same angle at every rate, as a loop does that knows no rate: what a chain of
-  // few relaxations leaves of it looks like that, or where it is little like a single play.
   e.plainer = {"calibration"};  // where nothing holds long, it comes all at once
   e.family = "creep";
   e.implausible = why_no_creep;

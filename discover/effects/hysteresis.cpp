@@ -367,8 +367,6 @@ Effect hysteresis() {
       {"initial_remanence", "precycle", "everywhere against first cycle only"}};
   e.family = "hysteresis";
   e.contains = {"calibration", "friction"};
-  // Where domains switch is uneven in other ways than any few plays are: the middle line of the loops is bent, and one
-  // more element slips.
   e.variation = "hysteretic_spring";
   e.summary = loop_width;
   e.implausible = why_no_hysteresis;

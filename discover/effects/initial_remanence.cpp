@@ -24,7 +24,6 @@ Effect initial_remanence() {
                    "within the drive's range of the device"}};
   e.look_alikes = {{"hysteresis", "precycle", "everywhere against first cycle only"}};
   e.family = "initial_remanence";
-  // No past is quite one visit, and all that its law leaves lies where recordings begin: at one level of the drive.
   e.summary = [](const Law&, const std::vector<double>& values, const Excitation& at) {
     return fmt::format("as after a visit to {:.4g} {}", at.unit.difference_from_si(values.front()), at.unit.text);
   };

@@ -10,8 +10,6 @@
 namespace hysteron::effects {
 namespace {
 
-constexpr double another_day = 3;  // [K] between the laboratory's temperatures when the model was made and now
-
 /// [s] where the search for the time constant of part k begins.
 double first_time(const Excitation& at, int k) { return at.longest_recording / (k == 0 ? 10 : 100); }
 

@@ -1,6 +1,7 @@
 // Decides what stands in the place of a term of the best model: what can be left out, a look-alike, another law.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "discover/search/ties.h"
@@ -42,9 +43,8 @@ void Selection::fit_on(const TableModel& rest, std::vector<Addition>& rivals) {
     const TableModel f = with_term(setting_, context, rest, term_of(rivals[k], law),
                                    ln_tried(rivals, *rivals[k].tried.effect), Effort::full);
     if (!f.ok()) return false;
-    const double most = most_by_joint_fit(setting_, context, f, best_.numbers);
-    const double as_tie = most - score_of(f) + tie_score_of(score(), f);
-    const bool may_tie = as_tie > tie_score_of(score(), best_) - rules::tie;
+    const bool may_tie = may_reach(setting_, context, f, best_.numbers, -std::numeric_limits<double>::infinity(),
+                                   tie_score_of(score(), best_));
     answers[k] = {{k, law, may_tie ? refitted(setting_, context, f, best_.numbers) : f}};
     return false;
   });

@@ -111,4 +111,12 @@ double most_by_joint_fit(const FitSetting& setting, const FitContext& context, c
   }
 }
 
+bool may_reach(const FitSetting& setting, const FitContext& context, const TableModel& fitted, Numbers numbers,
+               double more_than, double tie_score) {
+  const double most = most_by_joint_fit(setting, context, fitted, numbers);
+  if (most == unknown) return true;
+  const double as_tie = most - score_of(*setting.score, fitted) + tie_score_of(*setting.score, fitted);
+  return most > more_than && as_tie > tie_score - rules::tie;
+}
+
 }  // namespace hysteron

@@ -13,4 +13,8 @@ namespace hysteron {
 double most_by_joint_fit(const FitSetting& setting, const FitContext& context, const TableModel& fitted,
                          Numbers numbers);
 
+/// May the model so fitted have more than this score, and come within a tie of this tie score?
+bool may_reach(const FitSetting& setting, const FitContext& context, const TableModel& fitted, Numbers numbers,
+               double more_than, double tie_score);
+
 }  // namespace hysteron

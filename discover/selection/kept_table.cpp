@@ -13,7 +13,7 @@ FittedModel row_of(const SearchState& state, const TableModel& f, int step) {
   row.moved = f.moved;
   for (const auto& [effect, ln] : f.tried) row.ln_tried += ln;
   const DataModel& model = *state.base_model;
-  for (const auto& l : f.left) {
+  for (const auto& l : f.left_at_last()) {  // as it predicts: a table tells nothing of levels
     const auto& noise = state.evidence->noise().outputs[static_cast<std::size_t>(l.output)];
     row.left.push_back({model.recording(l.recording).name, model.outputs()[static_cast<std::size_t>(l.output)], l.rows,
                         l.scatter, l.correlation, noise.white_is_stated() ? noise.white * noise.white : 0,

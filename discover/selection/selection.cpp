@@ -194,9 +194,7 @@ void Selection::fit_first_laws(std::vector<Addition>& rivals, int step) {
 
 /// May the model, all of it fitted together, be claimed, and come within a tie of what is ahead (tie_score_of())?
 bool Selection::may_win(const TableModel& f, const FitContext& context, Numbers numbers, double ahead) const {
-  const double most = most_by_joint_fit(setting_, context, f, numbers);
-  const double as_tie = most - score_of(f) + tie_score_of(score(), f);
-  return most > score_of(best_) + rules::by_score && as_tie > ahead - rules::tie;
+  return may_reach(setting_, context, f, numbers, score_of(best_) + rules::by_score, ahead);
 }
 
 /// Together with all that stands and with the user's numbers, the likeliest first, until only noise is left. Where
@@ -211,7 +209,7 @@ void Selection::fit_with_numbers(std::vector<Addition>& rivals, const std::vecto
   for (const auto& f : others_at_first) best_at_first = std::max(best_at_first, score_of(f));
   const Numbers numbers = setting_.numbers.empty() ? Numbers::written : Numbers::let_go;
   double least = score().over_noise(best_.left_at_last());
-  double ahead = race ? tie_score_of(score(), others->front().fitted) : best_at_first;
+  double ahead = race ? tie_score_of(score(), others->front().fitted) : -std::numeric_limits<double>::infinity();
   for (const auto& r : rivals)
     if (r.fitted.ok()) {
       least = std::min(least, score().over_noise(r.fitted.left_at_last()));

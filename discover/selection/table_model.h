@@ -32,8 +32,8 @@ struct TableModel {
   /// By what it predicts, where columns round it to their levels.
   std::optional<LeftSums> rounded{};
   const LeftSums& left_at_last() const { return rounded ? *rounded : left; }
-  std::shared_ptr<const LevelsFound> levels{};
-  int parameters = 0;  ///< all free numbers of the laws
+  std::shared_ptr<const LevelsFound> levels{};  ///< of the model in which they were first told from noise; null: none
+  int parameters = 0;                           ///< all free numbers of the laws
   /// Of each of its effects, by id: ln(places times laws that were tried of it).
   std::map<std::string, double> tried{};
   double moved = 0;  ///< sum of ((x - x0)/(0.1 x0))^2 over the user's numbers
@@ -79,6 +79,7 @@ double tie_score_of(const BlockScore& score, const TableModel& fitted);
 /// What is left, and what it cost, of a model that was fitted. Of `tried` what stands in it counts.
 TableModel measured(const FitSetting& setting, CandidateModel model, Numbers numbers, NoiseModel weights,
                     const std::map<std::string, double>& tried);
+
 /// A workshop that weighs outputs by these weights, with the user's numbers let go or not.
 FitContext context_for(const FitSetting& setting, const FitContext& context, const NoiseModel& weights,
                        Numbers numbers);

@@ -73,6 +73,34 @@ TEST_F(StopOfADiscovery, AtAnyMomentTellsWhatWasFound) {
   EXPECT_TRUE(some || !late.steps.empty()) << "what was found is in no result";
 }
 
+TEST_F(StopOfADiscovery, AtAnyMomentClaimsNothingThatExplainsNothing) {
+  std::vector<Recording> list;
+  for (std::uint64_t r = 0; r < 3; ++r) {
+    const auto t = rows(600, 0.01);
+    const auto u = several_sines(t, 1, {0.4 + 0.1 * static_cast<double>(r), 1.3});
+    auto y = u;
+    const auto n = noise(t.size(), 1e-3, 0, 90 + r);
+    const auto jumps = noise(t.size() / 20, 0.02, 0, 190 + r);  // which no effect explains
+    for (std::size_t k = 0; k < y.size(); ++k) y[k] += n[k] + jumps[k / 20];
+    list.push_back(recording(std::to_string(r) + ".csv", r < 2 ? Role::train : Role::validate, t, u, std::move(y)));
+  }
+  const DataSet data = data_set(std::move(list), 1e-3);
+  std::atomic<long> asked{0};
+  const auto found = [&](long at) {
+    asked = 0;
+    DiscoverOptions options;
+    options.stop = [&] { return ++asked >= at; };
+    return discovered(plain_gain(), data, {"hysteresis", "backlash", "creep", "calibration"}, options);
+  };
+  ASSERT_TRUE(found(1'000'000'000).steps.empty());
+  const long all = asked;
+  constexpr long moments = 24;
+  for (long k = 1; k < moments; ++k) {
+    const Discovery now = found(all * k / moments);
+    EXPECT_TRUE(now.steps.empty()) << k << " of " << moments << ": " << tried(now);
+  }
+}
+
 TEST_F(StopOfADiscovery, BeforeTheModelWasSimulatedEndsItByTheCallersOwnScope) {
   const DataSet data = of_a_device_with_a_past();
   const StopScope scope([] { return true; });
