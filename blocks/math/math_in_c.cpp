@@ -114,7 +114,8 @@ CLaw rectifier_c() {
 CLaw rounding_c() {
   return {"rounding", [](const CBlock& b) {
             CCode c;
-            c.output = b.number("step") > 0 ? "$out.y = round($in.u / $p.step) * $p.step;" : "$out.y = $in.u;";
+            c.output = b.number("step") > 0 ? "$out.y = round(($in.u - $p.zero) / $p.step) * $p.step + $p.zero;"
+                                            : "$out.y = $in.u;";
             c.is_monotone = true;
             return c;
           }};

@@ -1,5 +1,5 @@
-// Decides the block "rounding": the nearest multiple of a step. Does not sample: the converter with a clock is
-// "quantizer".
+// Decides the block "rounding": the nearest of levels that are a step apart. Does not sample: the converter with a
+// clock is "quantizer".
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@ namespace hysteron::blocks {
 struct Rounding {
   template <class T>
   struct Params {
-    T step;
+    T step, zero;
   };
   template <class T>
   struct In {
@@ -29,11 +29,11 @@ struct Rounding {
   template <class T>
   static Out<T> output(const Params<T>& p, const In<T>& in) {
     if (!(value_of(p.step) > 0)) return {in.u};
-    return {std::round(value_of(in.u) / value_of(p.step)) * p.step};
+    return {std::round(value_of(in.u - p.zero) / value_of(p.step)) * p.step + p.zero};
   }
   /// Zero half way between two levels.
   static std::array<double, 1> kinks(const Params<double>& p, const In<double>& in) {
-    return {p.step > 0 ? std::cos(std::numbers::pi * in.u / p.step) : 1.0};
+    return {p.step > 0 ? std::cos(std::numbers::pi * (in.u - p.zero) / p.step) : 1.0};
   }
 };
 

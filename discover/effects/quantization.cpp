@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "discover/hypotheses/effect_terms.h"
 #include "fit/signals/unit_words.h"
@@ -13,7 +14,7 @@ Effect quantization() {
   e.id = e.family = "quantization";
   e.title = "Quantization";
   e.cause = "The converter of the sensor has so many bits, its display so many digits.";
-  e.equation = "y = step*round(u/step)";
+  e.equation = "y = zero + step*round((u - zero)/step)";
   e.source = "Widrow, Kollar, Quantization Noise (2008), chapter 1";
   e.residual = "Within half a step, white for busy signals; a saw tooth where the signal is slow.";
   e.needs = "Noise before the converter of less than half a step; else the rounding is part of the noise.";
@@ -40,6 +41,11 @@ Effect quantization() {
     step.upper = step.start * (1 + 0.25 / levels);
     step.read_off_column = true;
     give(law.block, "step", with_unit(step.start, at.unit));
+    // Zero of a converter in volts is a level; that of a thermometer in degC is none in K, nor is that of a counter
+    // with an offset.
+    constexpr double on_a_level = 0.02;  // of a step: levels are counted from zero by a step that is known so well
+    const double steps = at.resolution > 0 ? at.level / at.resolution : 0;
+    if (std::abs(steps - std::round(steps)) > on_a_level) give(law.block, "zero", value_in_unit(at.level, at.unit));
     law.free = {step};
     return std::vector<Law>{law};
   };

@@ -51,6 +51,12 @@ Number with_unit(double si, const Unit& unit) {
   return {value, effects::unit_text(unit)};
 }
 
+Number value_in_unit(double si, const Unit& unit) {
+  const double value = std::stod(fmt::format("{:.10g}", unit.from_si(si)));
+  if (unit.text.empty() && unit.dimension.none()) return {value, {}};
+  return {value, effects::unit_text(unit)};
+}
+
 NumberList with_unit(const std::vector<double>& si, const Unit& unit) {
   NumberList list;
   for (const double v : si) list.push_back(with_unit(v, unit));

@@ -85,6 +85,7 @@ struct Excitation {
   std::vector<std::string> memory_blocks;  ///< blocks with memory on the way from the inputs to the outputs
   double roughness = 0;                    ///< noise of the measured output that this wire is; 0 = none, or no output
   double resolution = 0;  ///< step between the levels of the measured output that this wire is; 0 = none, or no output
+  double level = 0;       ///< one of these levels
   Unit side_unit;         ///< of the side signal, where the effect reads one
   double side_lowest = 0, side_highest = 1;
   double side_highest_of_all = 1;  ///< validation included: it is known, not predicted
@@ -228,6 +229,8 @@ class Effects {
 /// A list of numbers with one unit, as a block parameter.
 NumberList with_unit(const std::vector<double>& si, const Unit& unit);
 Number with_unit(double si, const Unit& unit);
+/// The same of a value that is no difference, to ten digits: 273.15 K as "0 degC".
+Number value_in_unit(double si, const Unit& unit);
 /// "weights[3]"
 std::string element(const std::string& list, int index);
 

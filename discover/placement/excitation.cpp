@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <span>
 
 #include "discover/placement/rows.h"
@@ -157,6 +158,17 @@ double resolution_at(const Program& program, const DataSet& data, int signal) {
   return output.empty() ? 0 : finest_step(data, output);
 }
 
+/// The lowest level of the output that this signal is; 0 = no output.
+double level_at(const Program& program, const DataSet& data, int signal) {
+  const std::string output = output_at(program, signal);
+  std::optional<double> lowest;
+  for (const auto& r : data.recordings)
+    if (const auto column = r.columns.find(output); column != r.columns.end() && r.role != Role::test)
+      for (const double v : column->second)
+        if (!std::isnan(v)) lowest = std::min(lowest.value_or(v), v);
+  return lowest.value_or(0);
+}
+
 /// Noise of the output that this signal is, where it is smoothest; 0 = no output.
 double roughness_at(const Program& program, const DataSet& data, int signal) {
   const std::string output = output_at(program, signal);
@@ -238,6 +250,7 @@ class Observer {
       in_series.look(signal, c);
       c.weights = weights_behind(*program_, signal);
       c.resolution = resolution_at(*program_, data_, signal);
+      if (c.resolution > 0) c.level = level_at(*program_, data_, signal);
       c.roughness = roughness_at(*program_, data_, signal);
       c.by = places_[i].by;
       c.damping = damping_behind(*program_, places_[i], c.unit);

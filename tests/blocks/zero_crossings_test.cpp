@@ -176,6 +176,18 @@ TEST(ZeroCrossings, ARoundedSineIsIntegrated) {
   EXPECT_NEAR(simulated(d, 3).values[0].back(), time_above(0.5 / 1.2, 2, 0.3, 3), 1e-5);
 }
 
+TEST(ZeroCrossings, ARoundingAboutALevelThatIsNotZeroIsIntegrated) {
+  // Levels ..., -0.75, 0.25, 1.25: 1.25 above 0.75, -0.75 below -0.25, else 0.25. What is above 0.25 is one where
+  // 1.2 sin is above 0.75.
+  const auto d = tools::diagram({{"u", sine(1.2, 2, 0.3)},
+                                 {"r", block("rounding", {{"step", 1.0}, {"zero", 0.25}}, {"u"})},
+                                 {"above", block("calibration", {{"offset", -0.25}}, {"r"})},
+                                 {"p", block("rectifier", {{"mix", 0.5}}, {"above"})},
+                                 {"i", block("integrator", {}, {"p"})}},
+                                {"i"});
+  EXPECT_NEAR(simulated(d, 3).values[0].back(), time_above(0.75 / 1.2, 2, 0.3, 3), 1e-5);
+}
+
 TEST(ZeroCrossings, ARoundingThatIsOnlySampledEndsNoStep) {
   // Between samples nothing hangs on it: 80 000 levels are passed within these 2 s, 2 000 samples are taken.
   const auto steps = [](const Node& encoder) {

@@ -28,7 +28,8 @@ std::vector<double> lagged(const std::vector<double>& t, const std::vector<doubl
   return y;
 }
 
-DataSet rounded(std::uint64_t seed) {
+/// `zero` [m]: one of the levels.
+DataSet rounded(std::uint64_t seed, double zero = 0) {
   std::vector<Recording> list;
   for (int r = 0; r < 4; ++r) {
     const auto t = rows(800, 0.02);
@@ -36,7 +37,7 @@ DataSet rounded(std::uint64_t seed) {
         r % 2 == 0 ? levels(t, {0.4, 1, 0.2 + 0.1 * r, 0.7, 0.1}) : several_sines(t, 1, {0.11 + 0.03 * r, 0.47});
     auto y = lagged(t, u);
     const auto n = noise(t.size(), before_rounding, 0, seed + static_cast<std::uint64_t>(r));
-    for (std::size_t k = 0; k < y.size(); ++k) y[k] = level * std::floor((y[k] + n[k]) / level + 0.5);
+    for (std::size_t k = 0; k < y.size(); ++k) y[k] = zero + level * std::floor((y[k] + n[k] - zero) / level + 0.5);
     list.push_back(recording(std::to_string(r) + ".csv", r < 2 ? Role::train : Role::validate, t, u, std::move(y)));
     list.back().start_is_stated = true;
   }
@@ -72,6 +73,23 @@ TEST_F(Levels, NothingIsClaimedForMovingWhatTheyRound) {
       EXPECT_NEAR(n.found, is_gain ? gain : time_constant, is_gain ? 0.02 * gain : 0.06 * time_constant) << n.path;
     }
   }
+}
+
+TEST_F(Levels, LieWhereTheColumnHasThem) {
+  // A counter with an offset; a thermometer in degC is no other: none of its levels is 0 K.
+  constexpr double zero = 0.037;
+  const Discovery d =
+      discovered(lag_that_is_off(), rounded(41, zero), {"quantization", "amplifier_lag", "calibration"});
+  ASSERT_EQ(d.steps.size(), 1u) << tried(d);
+  ASSERT_EQ(winner(d), "quantization") << tried(d);
+  const auto program = compile(d.final_diagram, registry);
+  double written = -1;
+  for (const auto& p : program->parameters)
+    if (p.path.ends_with(".zero")) written = p.value;
+  const double steps = (written - zero) / value(d, "step");
+  EXPECT_NEAR(steps, std::round(steps), 1e-3) << written;
+  // Without rounding 0.1/sqrt(12) m are left, on levels that lie elsewhere 0.037 m at least.
+  EXPECT_LT(d.final_error.rms_validate, 0.1 / std::sqrt(12.0)) << tried(d);
 }
 
 }  // namespace

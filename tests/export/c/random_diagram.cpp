@@ -29,7 +29,7 @@ constexpr Part parts[] = {
     {R"("type": "dead_zone", "lower": -0.1, "upper": 0.2)", 1},
     {R"("type": "wrap", "period": 0.7)", 1, true},
     {R"("type": "rectifier", "mix": 0.4)", 1},
-    {R"("type": "rounding", "step": 0.13)", 1, true},
+    {R"("type": "rounding", "step": 0.13, "zero": 0.05)", 1, true},
     {R"("type": "min_max", "is": "min")", 3},
     {R"("type": "polynomial", "coefficients": [0.1, 0.9, -0.2, 0.05], "reference": 0.8, "lower": -0.6, "upper": 0.9)",
      1},
