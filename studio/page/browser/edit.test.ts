@@ -141,6 +141,33 @@ describe('editing', () => {
     await back();
   });
 
+  it('makes each edit of the text as it is in its turn, where a hand is quicker than the program', async () => {
+    const {page} = studio;
+    const before = studio.complaints.length;
+    await page.route('**/api/edit', async (route) => {
+      await new Promise((done) => setTimeout(done, 400));
+      await route.continue();
+    });
+    await studio.block('drive').click();
+    const amplitude = page.locator('.inspector input[aria-label="amplitude"]');
+    await amplitude.fill('3 V');
+    await amplitude.press('Enter');
+    await studio.block('limit').click();
+    // Until an edit has arrived a list shows what was, and a letter that follows chooses again.
+    const wire = page.locator('.inspector [aria-label="wire of u"]');
+    for (let i = 0; i < 3; ++i) await wire.selectOption('drive');
+    const recorded = page.locator('.inspector [aria-label="record limit"]');
+    for (let i = 0; i < 2; ++i) await recorded.click();
+    const upper = page.locator('.inspector input[aria-label="upper"]');
+    await upper.fill('5 V');
+    await upper.press('Enter');
+    const wanted = small.replace('"amplitude": "2 V"', '"amplitude": "3 V"').replace('"upper": "10 V"}', '"upper": "5 V", "in": "drive"}').replace(', "limit"]', ']');
+    await studio.until(() => text() === wanted);
+    await page.unroute('**/api/edit');
+    expect(studio.complaints.slice(before)).toEqual([]);
+    await back();
+  });
+
   it('takes back 50 random edits to the byte, also after a reload', async () => {
     const {page} = studio;
     let state = 11;

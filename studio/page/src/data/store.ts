@@ -48,7 +48,8 @@ interface Studio {
   back(index: number): Promise<void>;
   setDepth(depth: number): Promise<void>;
   reload(): Promise<void>;
-  edit(edits: Edit[]): Promise<boolean>;
+  /// Edits as they are, or as they are made of the document when their turn has come: what was on its way has then arrived.
+  edit(edits: Edit[] | (() => Edit[])): Promise<boolean>;
   write(text: string): Promise<boolean>;
   move(moves: Moves): Promise<boolean>;
   refresh(): Promise<void>;
@@ -239,7 +240,10 @@ export const useStudio = create<Studio>()((set, get) => {
       }),
 
     edit: (edits) =>
-      edits.length === 0 ? Promise.resolve(false) : inTurn(() => guarded((now) => api.edit(currentPath(get()), edits, now.hash, get().depth), true, '')),
+      inTurn(async () => {
+        const list = typeof edits === 'function' ? edits() : edits;
+        return list.length > 0 && guarded((now) => api.edit(currentPath(get()), list, now.hash, get().depth), true, '');
+      }),
 
     write: (text) => inTurn(() => guarded((now) => api.write(currentPath(get()), text, now.hash, get().depth), true, text)),
 

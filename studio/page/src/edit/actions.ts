@@ -20,25 +20,26 @@ export function bodyOf(block: any): any {
   return block?.from && block.choose ? block.from[block.choose] : block;
 }
 
-export async function connect(from: Item, out: number, to: Item, port: number): Promise<void> {
-  const {document, edit} = now();
-  const signal = doc.signalName(from, out);
-  if (to.type === 'output') {
-    await edit([{kind: 'replace', pointer: doc.pointer('outputs', to.name), value: doc.jsonText(signal)}]);
-    return;
-  }
+/// The item as it is shown now.
+const itemNow = (item: Item): Item => now().view?.sheet?.items.find((i) => i.path === item.path) ?? item;
+
+export const connect = (from: Item, out: number, to: Item, port: number): Promise<boolean> =>
+  now().edit(() => connectEdits(doc.signalName(from, out), itemNow(to), port));
+
+function connectEdits(signal: string, to: Item, port: number): Edit[] {
+  const {document} = now();
+  if (to.type === 'output') return [{kind: 'replace', pointer: doc.pointer('outputs', to.name), value: doc.jsonText(signal)}];
   const block = document?.blocks?.[to.name];
-  if (!block) return;
+  if (!block) return [];
   const body = bodyOf(block);
   if (doc.isSwitch(to, port, body)) {
     const key = to.in[port].name;
-    await setValue(to.name, key, typeof body[key] === 'string' ? signal : doc.jsonText({...body[key], in: signal}));
-    return;
+    return doc.valueEdits(document, to.name, key, typeof body[key] === 'string' ? signal : doc.jsonText({...body[key], in: signal}));
   }
-  to = doc.withoutSwitches(to, body);
-  const takesAny = declarationOf(to.type)?.inputs.find((p) => p.name === to.in[port]?.name)?.any_number;
-  const into = takesAny && to.in[port].reads ? doc.inAppended(block.in, to, signal) : doc.inWith(block.in, to, port, signal);
-  await edit(doc.setMember(document, to.name, 'in', into));
+  const wired = doc.withoutSwitches(to, body);
+  const takesAny = declarationOf(wired.type)?.inputs.find((p) => p.name === wired.in[port]?.name)?.any_number;
+  const into = takesAny && wired.in[port].reads ? doc.inAppended(block.in, wired, signal) : doc.inWith(block.in, wired, port, signal);
+  return doc.setMember(document, to.name, 'in', into);
 }
 
 let choices = 0;  // a list that is typed into tells a choice per letter: the last of them counts
@@ -55,40 +56,46 @@ export async function connectSignal(signal: string, to: Item, port: number): Pro
     if (choice !== choices) return;
     const why = fits.find((f) => f.item === items.findIndex((i) => i.path === to.path) && f.in === port)?.why;
     if (why) say(why, 'error');
-    else await connect(from, from.out.findIndex((_, k) => doc.signalName(from, k) === signal), to, port);
+    else await now().edit(() => (choice === choices ? connectEdits(signal, itemNow(to), port) : []));
   } catch (error) {
     tell(error);
   }
 }
 
-export async function disconnect(to: Item, port: number): Promise<void> {
-  const {document, edit} = now();
-  if (to.type === 'output') await edit([{kind: 'remove', pointer: doc.pointer('outputs', to.name)}]);
-  else {
-    const block = document?.blocks?.[to.name];
-    if (doc.isSwitch(to, port, bodyOf(block))) await setValue(to.name, to.in[port].name, '');
-    else await edit(doc.setMember(document, to.name, 'in', doc.inWithout(block?.in, doc.withoutSwitches(to, bodyOf(block)), port)));
-  }
+export const disconnect = (to: Item, port: number): Promise<boolean> => now().edit(() => disconnectEdits(itemNow(to), port));
+
+function disconnectEdits(to: Item, port: number): Edit[] {
+  const {document} = now();
+  if (to.type === 'output') return [{kind: 'remove', pointer: doc.pointer('outputs', to.name)}];
+  const block = document?.blocks?.[to.name];
+  const body = bodyOf(block);
+  if (doc.isSwitch(to, port, body)) return doc.valueEdits(document, to.name, to.in[port].name, '');
+  return doc.setMember(document, to.name, 'in', doc.inWithout(block?.in, doc.withoutSwitches(to, body), port));
 }
 
 /// A new block; wired to the selected one, where that is wanted and the type has an input. It stands where it was dropped
 /// (with its middle there), else where the layout puts it.
 export async function place(type: string, wired = true, at?: {x: number; y: number}): Promise<void> {
-  const {document, edit, selected, view} = now();
+  const {edit, selected} = now();
   const declaration = declarationOf(type);
-  if (!document || !declaration) return;
-  const name = doc.freeName(document, type);
-  const block = doc.newBlock(declaration);
-  const from = view?.sheet?.items.find((i) => i.path === selected[0] && i.out.length > 0);
-  if (from && wired && declaration.inputs.length) block.in = doc.signalName(from, 0);
-  if (!(await edit([doc.putInto(document, 'blocks', name, block)]))) return;
+  if (!now().document || !declaration) return;
+  let name = '';
+  const done = await edit(() => {
+    const {document, view} = now();
+    name = doc.freeName(document, type);
+    const block = doc.newBlock(declaration);
+    const from = view?.sheet?.items.find((i) => i.path === selected[0] && i.out.length > 0);
+    if (from && wired && declaration.inputs.length) block.in = doc.signalName(from, 0);
+    return [doc.putInto(document, 'blocks', name, block)];
+  });
+  if (!done) return;
   now().set({selected: [name], selectedWire: ''});
   const item = now().view?.sheet?.items.find((i) => i.path === name);
   if (at && item) await now().move(movesOf({[name]: {x: at.x - item.width / 2, y: at.y - item.height / 2}}));
 }
 
 export async function removeSelected(): Promise<void> {
-  const {document, edit, selected, selectedWire, view} = now();
+  const {edit, selected, selectedWire, view} = now();
   if (selectedWire && view?.sheet) {
     const wire = view.sheet.wires.find((w) => `${w.signal}>${view.sheet!.items[w.to].path}/${w.in}` === selectedWire);
     if (wire) await disconnect(view.sheet.items[wire.to], wire.in);
@@ -96,30 +103,17 @@ export async function removeSelected(): Promise<void> {
     return;
   }
   if (!selected.length || !view?.sheet) return;
-  if (await edit(doc.removeBlocks(document, selected, view.sheet.items))) now().set({selected: []});
+  if (await edit(() => doc.removeBlocks(now().document, selected, now().view?.sheet?.items ?? []))) now().set({selected: []});
 }
 
 export async function rename(from: string, to: string): Promise<void> {
-  const {document, edit} = now();
   if (from === to || !to) return;
-  if (await edit(doc.renameBlock(document, from, to))) now().set({selected: [to]});
+  if (await now().edit(() => doc.renameBlock(now().document, from, to))) now().set({selected: [to]});
 }
 
 /// A value as it was typed; empty removes it, and the default counts.
 export async function setValue(block: string, key: string, text: string): Promise<void> {
-  const {document, edit} = now();
-  const node = document?.blocks?.[block];
-  const isChoice = node?.from && node.choose;
-  const value = text.trim() === '' ? undefined : doc.typedValue(text);
-  if (!isChoice) {
-    await edit(doc.setMember(document, block, key, value));
-    return;
-  }
-  const at = doc.pointer('blocks', block, 'from', node.choose);
-  const has = key in (node.from[node.choose] ?? {});
-  if (value === undefined) await edit(has ? [{kind: 'remove', pointer: at + doc.pointer(key)}] : []);
-  else if (has) await edit([{kind: 'replace', pointer: at + doc.pointer(key), value: doc.jsonText(value)}]);
-  else await edit([{kind: 'insert', pointer: at, key, value: doc.jsonText(value)}]);
+  await now().edit(() => doc.valueEdits(now().document, block, key, text));
 }
 
 export async function choose(block: string, candidate: string): Promise<void> {
@@ -128,39 +122,12 @@ export async function choose(block: string, candidate: string): Promise<void> {
 
 /// A member of "simulate", "parameters" ... as it was typed.
 export async function setIn(section: string, key: string, text: string): Promise<void> {
-  const {document, edit} = now();
-  const there = document?.[section]?.[key];
-  if (text.trim() === '') {
-    if (there !== undefined) await edit([{kind: 'remove', pointer: doc.pointer(section, key)}]);
-    return;
-  }
-  const value = doc.typedValue(text);
-  if (section === 'parameters' && there && typeof there === 'object' && !Array.isArray(there) && 'value' in there) {
-    const {unit: _unit, ...others} = there;
-    const parts = /^([-+.\deE]+)\s+(\S.*)$/.exec(String(value));
-    const next = parts ? {value: Number(parts[1]), unit: parts[2], ...withoutValue(others)} : {...there, value};
-    await edit([{kind: 'replace', pointer: doc.pointer(section, key), value: doc.jsonText(next)}]);
-    return;
-  }
-  await edit([doc.putInto(document, section, key, value)]);
-}
-
-function withoutValue(members: any): any {
-  const {value: _value, ...others} = members;
-  return others;
+  await now().edit(() => doc.sectionEdits(now().document, section, key, text));
 }
 
 /// Is a signal recorded by runs? Switches it.
 export async function record(signal: string, on: boolean): Promise<void> {
-  const {document, edit} = now();
-  const list: string[] = document?.record ?? [];
-  const at = list.indexOf(signal);
-  const edits: Edit[] = [];
-  if (on && at < 0)
-    edits.push(document?.record ? {kind: 'insert', pointer: '/record', value: doc.jsonText(signal)}
-                                : {kind: 'insert', pointer: '', key: 'record', value: doc.jsonText([signal]), after: doc.predecessor(document, 'record')});
-  if (!on && at >= 0) edits.push({kind: 'remove', pointer: doc.pointer('record', at)});
-  await edit(edits);
+  await now().edit(() => doc.recordEdits(now().document, signal, on));
 }
 
 export async function openNested(item: Item): Promise<void> {
@@ -181,13 +148,15 @@ export async function copy(): Promise<void> {
 }
 
 export async function paste(text: string): Promise<void> {
-  const {document, edit, say} = now();
-  const found = doc.pasted(document, text);
-  if (!found) {
-    say('the clipboard holds no blocks: copy them here, or write {"name": {"type": ...}}', 'error');
-    return;
-  }
-  if (await edit(found.edits)) now().set({selected: found.names});
+  const {edit, say} = now();
+  let names: string[] | undefined;
+  const done = await edit(() => {
+    const found = doc.pasted(now().document, text);
+    names = found?.names;
+    return found?.edits ?? [];
+  });
+  if (!names) say('the clipboard holds no blocks: copy them here, or write {"name": {"type": ...}}', 'error');
+  else if (done) now().set({selected: names});
 }
 
 /// The diagram that discover wrote, beside the open one: shown, not written.
@@ -214,16 +183,12 @@ export async function accept(): Promise<void> {
 }
 
 export async function setTitle(text: string): Promise<void> {
-  const {document, edit} = now();
-  if (!document) return;
-  if ('title' in document) await edit([text ? {kind: 'replace', pointer: '/title', value: doc.jsonText(text)} : {kind: 'remove', pointer: '/title'}]);
-  else if (text) await edit([{kind: 'insert', pointer: '', key: 'title', value: doc.jsonText(text), after: doc.predecessor(document, 'title')}]);
+  await now().edit(() => doc.titleEdits(now().document, text));
 }
 
 /// The unit of an input of the diagram.
 export async function setInput(name: string, unit: string): Promise<void> {
-  const {document, edit} = now();
-  await edit([{kind: 'replace', pointer: doc.pointer('inputs', name), value: doc.jsonText({...document.inputs[name], unit})}]);
+  await now().edit(() => [{kind: 'replace', pointer: doc.pointer('inputs', name), value: doc.jsonText({...now().document.inputs[name], unit})}]);
 }
 
 /// Runs, of which the last is looked at and the others lie behind it.

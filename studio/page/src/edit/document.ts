@@ -147,6 +147,49 @@ export function setMember(document: any, block: string, key: string, value: unkn
   return [{kind: 'insert', pointer: pointer('blocks', block), key, value: jsonText(value)}];
 }
 
+/// A value of a block, or of the candidate in use where it is a choice, as it was typed; empty removes it, and the default
+/// counts.
+export function valueEdits(document: any, block: string, key: string, text: string): Edit[] {
+  const node = document?.blocks?.[block];
+  const value = text.trim() === '' ? undefined : typedValue(text);
+  if (!(node?.from && node.choose)) return setMember(document, block, key, value);
+  const at = pointer('blocks', block, 'from', node.choose);
+  const has = key in (node.from[node.choose] ?? {});
+  if (value === undefined) return has ? [{kind: 'remove', pointer: at + pointer(key)}] : [];
+  if (has) return [{kind: 'replace', pointer: at + pointer(key), value: jsonText(value)}];
+  return [{kind: 'insert', pointer: at, key, value: jsonText(value)}];
+}
+
+/// A member of "simulate", "parameters" ... as it was typed; empty removes it.
+export function sectionEdits(document: any, section: string, key: string, text: string): Edit[] {
+  const there = document?.[section]?.[key];
+  if (text.trim() === '') return there !== undefined ? [{kind: 'remove', pointer: pointer(section, key)}] : [];
+  const value = typedValue(text);
+  if (section === 'parameters' && there && typeof there === 'object' && !Array.isArray(there) && 'value' in there) {
+    const {unit: _unit, value: _value, ...others} = there;
+    const parts = /^([-+.\deE]+)\s+(\S.*)$/.exec(String(value));
+    const next = parts ? {value: Number(parts[1]), unit: parts[2], ...others} : {...there, value};
+    return [{kind: 'replace', pointer: pointer(section, key), value: jsonText(next)}];
+  }
+  return [putInto(document, section, key, value)];
+}
+
+/// Makes a signal one that runs record, or one that they do not.
+export function recordEdits(document: any, signal: string, on: boolean): Edit[] {
+  const list: string[] | undefined = document?.record;
+  const at = (list ?? []).indexOf(signal);
+  if (on && at < 0)
+    return list ? [{kind: 'insert', pointer: '/record', value: jsonText(signal)}]
+                : [{kind: 'insert', pointer: '', key: 'record', value: jsonText([signal]), after: predecessor(document, 'record')}];
+  return !on && at >= 0 ? [{kind: 'remove', pointer: pointer('record', at)}] : [];
+}
+
+/// The title of a diagram; empty removes it.
+export function titleEdits(document: any, text: string): Edit[] {
+  if (document && 'title' in document) return [text ? {kind: 'replace', pointer: '/title', value: jsonText(text)} : {kind: 'remove', pointer: '/title'}];
+  return document && text ? [{kind: 'insert', pointer: '', key: 'title', value: jsonText(text), after: predecessor(document, 'title')}] : [];
+}
+
 /// Does a text that names a signal speak of this block? "stage", "stage.force", "stage/play", "stage[1]"
 const speaksOf = (signal: unknown, block: string) =>
   typeof signal === 'string' && signal.startsWith(block) && /^($|[./[])/.test(signal.slice(block.length));
