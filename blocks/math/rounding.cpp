@@ -16,8 +16,7 @@ void Rounding::describe(BlockSpec<Rounding>& spec) {
       .difference();
   spec.param(&Params<double>::zero, "zero", "$a",
              "one of the levels, e.g. \"0 degC\": in K zero is none of a thermometer's")
-      .optional("0")
-      .offset();
+      .optional("0");
 }
 
 Kernel rounding_block() { return kernel<Rounding>(); }
