@@ -3,6 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "discover/hypotheses/effect.h"
 #include "discover/placement/places.h"
@@ -98,15 +102,20 @@ void collect_variations(const Diagram& diagram, const Registry& registry, const 
 bool is_temperature(const Unit& unit) { return unit.dimension == parse_unit("K").dimension; }
 
 /// True if `to` is made from `from`.
-bool leads_to(const Wiring& w, const std::string& from, const std::string& to, int depth = 0) {
-  if (from == to) return true;
-  const std::string block = w.source(to);
-  if (block.empty() || depth > 64) return false;
-  const Node* node = w.diagram().blocks.find(block);
-  if (node == nullptr) return false;  // a column that the diagram does not read
-  const auto& in = node->in;
-  return std::any_of(in.begin(), in.end(),
-                     [&](const Wire& wire) { return leads_to(w, from, w.signal(wire.from), depth + 1); });
+bool leads_to(const Wiring& w, const std::string& from, const std::string& to) {
+  std::set<std::string> seen{to};
+  std::vector<std::string> next{to};
+  while (!next.empty()) {
+    const std::string now = std::move(next.back());
+    next.pop_back();
+    if (now == from) return true;
+    const std::string block = w.source(now);
+    const Node* node = block.empty() ? nullptr : w.diagram().blocks.find(block);
+    if (node == nullptr) continue;  // an input, or a column that the diagram does not read
+    for (const Wire& wire : node->in)
+      if (seen.insert(w.signal(wire.from)).second) next.push_back(w.signal(wire.from));
+  }
+  return false;
 }
 
 /// A signal that may stand beside a wire: its name and, where the diagram does not read it yet, its unit.

@@ -216,6 +216,28 @@ TEST_F(Places, OfOneAxisStayOnItsWayWhenACouplingReadsIt) {
       << "before the zero of the sensor, whoever else reads the motion";
 }
 
+TEST_F(Places, AreFoundWhereEachStageIsReachedByTwoWays) {
+  // 2^40 ways lead through 40 stages of two wires each: each wire is to be looked at once.
+  Diagram d = two_stages();
+  std::string from = "stage2";
+  for (int i = 0; i < 40; ++i) {
+    const std::string gain = "gain" + std::to_string(i), sum = "sum" + std::to_string(i);
+    d.blocks[gain] = typed_node("gain", {{"", from}});
+    d.blocks[gain].parameters["gain"] = Value("0.01");
+    d.blocks[sum] = typed_node("sum", {{"", from}, {"", gain}});
+    d.blocks[sum].parameters["signs"] = Value("++");
+    from = sum;
+  }
+  d.blocks["sensor2"].in = {{"", from}};
+  const auto before = places_of(effects.get("cross_coupling"), two_stages(), registry);
+  const auto at = places_of(effects.get("cross_coupling"), d, registry);
+  const auto of_first_axis = [](const std::vector<Place>& places) {
+    return std::count_if(places.begin(), places.end(), [](const Place& p) { return p.wire == "stage"; });
+  };
+  EXPECT_GT(of_first_axis(before), 0);
+  EXPECT_EQ(of_first_axis(at), of_first_axis(before));
+}
+
 TEST_F(Places, OfCouplingsBothWaysReadEachAxisOwnMotion) {
   const Added one = with_beside(two_stages(), "cross_coupling", "stage2", "stage", "um");
   const Added both = with_beside(one.diagram, "cross_coupling", "stage", "stage2", "um");
