@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "app/cli/answer.h"
 #include "app/cli/load.h"
@@ -203,17 +204,18 @@ Answer compare_verb_acts(const Arguments& arguments, const Watch& watch) {
   model_options.keep_workspaces = false;
   DataModel model(program, data, model_options);
   const auto recordings = judged_recordings(model);
-  const Judge judge(model, noise_before_fit(model));
-  improve_starts(model, judge, {}, recordings);
+  std::optional<Judge> judge(std::in_place, model, noise_before_fit(model));
+  improve_starts(model, *judge, {}, recordings);
   Prediction prediction = model.predict({}, recordings);
   if (!prediction.ok)
     fail_numerics("simulation_failed", arguments.text("diagram"), prediction.error,
                   "run it alone with \"hysteron run\" to see where it diverges");
   std::vector<std::string> behind;  // warnings
-  for (const auto& beginning : begin_elsewhere(model, judge.noise(), prediction, {}, recordings))
+  for (const auto& beginning : begin_elsewhere(model, judge->noise(), prediction, {}, recordings))
     behind.push_back(to_text(model, beginning));
-  const auto delays = find_delays(model, judge, prediction);
-  const Comparison comparison = compare(model, judge, std::move(prediction), recordings);
+  const auto delays = find_delays(model, *judge, prediction);
+  const Comparison comparison = compare(model, *judge, std::move(prediction), recordings);
+  judge.reset();  // a number a row, of no use to the tables that are made now
   need_something_to_judge(arguments.text("--data"), model, comparison);
 
   Answer answer;
