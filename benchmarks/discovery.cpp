@@ -88,7 +88,7 @@ std::string answer_case(const std::filesystem::path& folder, const Wish& wish) {
   for (const auto& name : hidden_effect_names())
     if (effects.find(name) != nullptr) options.only.push_back(name);
   if (wish.seconds > 0) {
-    options.enough = [&] { return cpu_seconds() > DiscoverOptions::to_search * wish.seconds; };
+    options.spent = [&] { return cpu_seconds() / (DiscoverOptions::to_search * wish.seconds); };
     options.stop = [&] { return cpu_seconds() > wish.seconds; };
   }
   options.threads = wish.threads;

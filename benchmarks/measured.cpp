@@ -170,11 +170,11 @@ void look_at(const Device& device, const Wish& wish, const Registry& registry, c
   const auto start = std::chrono::steady_clock::now();
   const double cpu = cpu_seconds();
   DiscoverOptions options;
-  const auto past = [&](double share) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() > share * wish.seconds;
+  const auto spent = [&] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / wish.seconds;
   };
-  options.enough = [&] { return past(DiscoverOptions::to_search); };
-  options.stop = [&] { return past(1); };
+  options.spent = [&] { return spent() / DiscoverOptions::to_search; };
+  options.stop = [&] { return spent() > 1; };
   if (wish.progress)
     options.progress = [&](const std::string& what, double) {
       fmt::print(stderr, "{:<16} {:7.2f}  {}\n", device.name, cpu_seconds() - cpu, what);

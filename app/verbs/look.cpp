@@ -196,7 +196,7 @@ Looked search(const std::string& verb, Wish& wish, const DataSet& data, const Wa
   const auto begun = Steady::now();
   const auto past = [&, begun](double share) { return Steady::now() - begun > share * wish.within; };
   settings.progress = [&](const std::string& what, double done) { watch.show(done, what); };
-  settings.enough = [past] { return past(DiscoverOptions::to_search); };
+  settings.spent = [&, begun] { return (Steady::now() - begun) / (DiscoverOptions::to_search * wish.within); };
   settings.stop = [&, past] { return watch.stop() || past(1); };
   Looked looked;
   try {

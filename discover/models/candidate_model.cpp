@@ -56,6 +56,7 @@ CandidateModel guarded(const FitContext& context, CandidateModel c, Effort effor
     c.error = e.what();
   } catch (const Stopped&) {
     c.ok = false;
+    c.stopped = true;
     c.error = broken_off;
   }
   context.derivatives->count(c.runs);

@@ -37,8 +37,9 @@ struct RecordingValue {
 /// The user's diagram with effects placed in it, fitted or to be fitted, and what it says of the recordings.
 struct CandidateModel {
   bool ok = false;
-  std::string error;  ///< why not ok
-  Diagram diagram;    ///< with fitted values
+  std::string error;     ///< why not ok
+  bool stopped = false;  ///< not ok, for it was broken off before anything was found
+  Diagram diagram;       ///< with fitted values
   std::vector<PlacedEffect> placed;
   Added change;  ///< of the last effect
   ProgramPointer program;

@@ -212,6 +212,8 @@ double fit_chosen(const FitContext& context, CandidateModel& c, Effort effort, i
   c.error = c.fit.error;
   c.runs += model.runs();
   if (!c.ok && c.fit.stopped) throw Stopped{};  // nothing was found that could be kept
+  std::optional<StopScope> to_its_end;          // what was found until then is compared
+  if (c.fit.stopped) to_its_end.emplace(nullptr);
   if (!c.ok) return steps;
   keep_of_recordings(c, fixed);
   Trial all = c.fit.values;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <utility>
 
 #include "discover/models/parts.h"
@@ -70,8 +71,8 @@ void SearchState::progress(const std::string& what, double done) const {
   options.progress(what, std::min(done, 1.0));
 }
 
-bool SearchState::unless_stopped(const std::function<void()>& work) const {
-  const StopScope scope([this] { return stopped(); });
+bool SearchState::unless_stopped(const std::function<void()>& work, double until) const {
+  const StopScope scope([&] { return stopped() || (until < whole_time && spent() >= until); });
   try {
     work();
     return true;
@@ -80,8 +81,8 @@ bool SearchState::unless_stopped(const std::function<void()>& work) const {
   }
 }
 
-std::size_t SearchState::side_by_side(std::size_t n,
-                                      const std::function<bool(std::size_t, const FitContext&)>& job) const {
+std::size_t SearchState::side_by_side(std::size_t n, const std::function<bool(std::size_t, const FitContext&)>& job,
+                                      double until) const {
   std::vector<std::shared_ptr<DerivativeStore>> derivatives(n);
   std::atomic<std::size_t> first{n};
   context.threads.each(n, [&](std::size_t i) {
@@ -89,7 +90,9 @@ std::size_t SearchState::side_by_side(std::size_t n,
     FitContext own = context;
     own.derivatives = derivatives[i] = std::make_shared<DerivativeStore>(context.derivatives);
     bool answer = false;
-    unless_stopped([&] { answer = job(i, own); });
+    const double now = spent(), turns = std::ceil(static_cast<double>(n - i) / context.threads.count());
+    const double part = std::max(0.0, until - now) / turns;  // what others leave of theirs is for those behind
+    unless_stopped([&] { answer = job(i, own); }, until < whole_time ? now + part : whole_time);
     if (!answer) return;
     for (std::size_t was = first; i < was && !first.compare_exchange_weak(was, i);) continue;
   });

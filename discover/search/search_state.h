@@ -3,6 +3,7 @@
 // the verdict (conclude.cpp), what is recorded of structures that competed (structures_tried.h).
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -24,16 +25,21 @@ struct SearchState {
               const DiscoverOptions& options);
 
   /// Nothing new is begun: the search is over, or, once it is `closing`, all is.
-  bool stopped() const { return (options.stop && options.stop()) || (!closing && options.enough && options.enough()); }
+  bool stopped() const { return (options.stop && options.stop()) || (!closing && spent() >= 1); }
+  double spent() const { return options.spent ? options.spent() : 0; }  ///< of the time to search
   /// Does what can be left out where the search is stopped, and is broken off then. True if it came to its end.
-  bool unless_stopped(const std::function<void()>& work) const;
+  bool unless_stopped(const std::function<void()>& work) const { return unless_stopped(work, whole_time); }
+  static constexpr double whole_time = 1;                     ///< of that to search
   void progress(const std::string& what, double done) const;  ///< by any thread
   /// Fits that do not need each other, several at a time: job(i, context) for each i in [0, n), begun in this order,
   /// until one answers true or the search is stopped: a job that is broken off leaves what it had not begun with.
   /// Returns the first that did, n if none; what later ones left does not count. What fits write down others find only
-  /// after the last: then nothing depends on the number of threads.
-  std::size_t side_by_side(std::size_t n,
-                           const std::function<bool(std::size_t i, const FitContext& context)>& job) const;
+  /// after the last: then nothing depends on the number of threads. `until`: the point of spent() at which they should
+  /// have ended; one that takes more than its part of what is left until then is broken off.
+  std::size_t side_by_side(std::size_t n, const std::function<bool(std::size_t i, const FitContext& context)>& job,
+                           double until = whole_time) const;
+  /// The point of spent() at which so much of what is left now is over.
+  double after(double share) const { return spent() + share * std::max(0.0, 1 - spent()); }
   bool wanted(const Effect& effect) const;
   /// Noise from the residual of `best`; whoever is compared afterwards is compared in its units. How lines of the mains
   /// that stand in it wander is no evidence.
@@ -57,6 +63,8 @@ struct SearchState {
   Discovery d;
 
  private:
+  bool unless_stopped(const std::function<void()>& work, double until) const;
+
   mutable std::mutex telling_;
 };
 

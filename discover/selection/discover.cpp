@@ -344,7 +344,7 @@ std::unique_ptr<Search> search_in(const Asked& asked, const DataSet& data) {
     search = std::move(again);
   }
   if (search->smooth) tell_unused(search->state, *search->smooth);
-  search->state.d.broken_off = search->state.stopped();
+  search->state.d.broken_off = search->state.stopped() || search->selection->left_some_out();
   search->state.closing = true;  // what was found is told in full
   return search;
 }

@@ -13,47 +13,17 @@
 
 #include "discover/models/fit_cost.h"
 #include "discover/selection/joint_step.h"
-#include "discover/wiring/wiring.h"
+#include "discover/selection/slowness.h"
 #include "engine/diagram/stop.h"
 
 namespace hysteron {
 namespace {
 
 constexpr std::size_t at_once = 8;  // rivals that are fitted with all numbers before anybody looks at what is left
-constexpr int slowest = 2;          // see slowness()
-constexpr int few_renewals = 3;     // of weights, for rivals that may not win
-constexpr std::size_t enriched_names = 4;  // whose richer laws are fitted
-constexpr std::size_t finalists = 3;       // that are fitted until their weights are those of what they leave
-
-/// Does what the place moves come back to it?
-bool is_in_a_loop(const Wiring& w, const std::string& signal) {
-  if (w.signal(signal).empty()) return false;  // what is read off a wire
-  std::set<std::string> seen;
-  std::vector<std::string> next{w.signal(signal)};
-  while (!next.empty()) {
-    const std::string now = next.back();
-    next.pop_back();
-    for (const auto& reader : w.readers(now))
-      for (const auto& out : reader.block.empty() ? std::vector<std::string>{} : w.outputs_of(reader.block)) {
-        if (out == w.signal(signal)) return true;
-        if (seen.insert(out).second) next.push_back(out);
-      }
-  }
-  return false;
-}
-
-/// How long a fit takes, roughly: inside a loop each row is solved in steps, more so where something remembers there,
-/// and so are several elements of memory in a block that moves.
-int slowness(const SearchState& state, const TriedEffect& t) {
-  constexpr std::size_t several = 4;
-  if (t.effect->is_memory && !t.place.by.empty()) return t.laws.front().free.size() > several ? slowest : 0;
-  const bool on_a_wire = t.place.by.empty() && t.effect->way == Way::insert;
-  const bool nested = t.place.wire.find('/') != std::string::npos || t.place.wire.empty();
-  if (!on_a_wire || nested || !is_in_a_loop(Wiring(state.current.diagram, state.registry), t.place.moves_from()))
-    return 0;
-  const Kernel* law = state.registry.find(t.laws.front().block.type);
-  return law != nullptr && (law->advance != nullptr || law->reach_back != nullptr || law->uses_time) ? slowest : 1;
-}
+constexpr double of_first_laws = 0.5, of_numbers = 0.4;  // of the time that is left, where it is limited
+constexpr int few_renewals = 3;                          // of weights, for rivals that may not win
+constexpr std::size_t enriched_names = 4;                // whose richer laws are fitted
+constexpr std::size_t finalists = 3;  // that are fitted until their weights are those of what they leave
 
 /// What a score needs.
 TableModel without_prediction(const TableModel& f) {
@@ -161,6 +131,7 @@ std::vector<Addition> Selection::list(int step) {
   return rivals;
 }
 
+/// Where time is short and a fit takes much of it, the others are asked first, and it then with less effort.
 void Selection::fit_first_laws(std::vector<Addition>& rivals, int step) {
   std::vector<std::pair<std::size_t, std::size_t>> jobs;  // rival, law
   for (std::size_t i = 0; i < rivals.size(); ++i)
@@ -168,7 +139,8 @@ void Selection::fit_first_laws(std::vector<Addition>& rivals, int step) {
       if (l == 0 || rivals[i].tried.laws[l].apart) jobs.emplace_back(i, l);
   // Each answer of its own: the score that orders them is that of all.
   std::vector<FitsOfRival> answers(jobs.size());
-  state_.side_by_side(jobs.size(), [&](std::size_t j, const FitContext& context) {
+  const double until = state_.after(of_first_laws);
+  const auto fit_one = [&](std::size_t j, const FitContext& context, bool quickly) {
     const auto [i, law] = jobs[j];
     const TriedEffect& t = rivals[i].tried;
     state_.progress(
@@ -179,7 +151,7 @@ void Selection::fit_first_laws(std::vector<Addition>& rivals, int step) {
     const auto add = [&](const TableModel& from, Effort effort) {
       answers[j].push_back({i, law, with_term(setting_, context, from, choice, tried, effort)});
     };
-    if (step == 1 && rivals[i].slowness > 0) {
+    if (step == 1 && (quickly || rivals[i].slowness > 0)) {
       add(nulls_.let_go.ok() ? nulls_.let_go : nulls_.written, Effort::screen);
     } else if (step > 1) {
       add(best_, Effort::screen);
@@ -188,7 +160,19 @@ void Selection::fit_first_laws(std::vector<Addition>& rivals, int step) {
       if (nulls_.let_go.ok()) add(nulls_.let_go, Effort::full);
     }
     return false;
-  });
+  };
+  state_.side_by_side(
+      jobs.size(), [&](std::size_t j, const FitContext& context) { return fit_one(j, context, false); }, until);
+  std::vector<std::size_t> again;
+  for (std::size_t j = 0; j < jobs.size(); ++j)
+    if (std::none_of(answers[j].begin(), answers[j].end(), [](const FitOfRival& a) { return a.fitted.ok(); }) &&
+        (answers[j].empty() || answers[j].front().fitted.model.stopped))
+      again.push_back(j);
+  state_.side_by_side(
+      again.size(), [&](std::size_t k, const FitContext& context) { return fit_one(again[k], context, true); }, until);
+  left_some_out_ = left_some_out_ || std::any_of(again.begin(), again.end(), [&](std::size_t j) {
+                     return answers[j].empty() || !answers[j].back().fitted.ok();
+                   });
   take_up(rivals, std::move(answers));
 }
 
@@ -197,19 +181,12 @@ bool Selection::may_win(const TableModel& f, const FitContext& context, Numbers 
   return may_reach(setting_, context, f, numbers, score_of(best_) + rules::by_score, ahead);
 }
 
-/// Together with all that stands and with the user's numbers, the likeliest first, until only noise is left. Where
-/// others have been fitted so, of the rest only the first and those that explain more than the best of the others; of
-/// the slowest only those that explain more than the others did before their numbers were let go.
-void Selection::fit_with_numbers(std::vector<Addition>& rivals, const std::vector<Addition>* others,
-                                 const std::vector<TableModel>& others_at_first) {
+/// Together with all that stands and with the user's numbers, the likeliest first, until only noise is left.
+void Selection::fit_with_numbers(std::vector<Addition>& rivals, const WhoIsAsked& who) {
   sort(rivals);
-  const bool race = others != nullptr && !others->empty() && others->front().fitted.ok();
-  double best = -std::numeric_limits<double>::infinity(), best_at_first = best;
-  if (race) best = score_of(others->front().fitted);
-  for (const auto& f : others_at_first) best_at_first = std::max(best_at_first, score_of(f));
   const Numbers numbers = setting_.numbers.empty() ? Numbers::written : Numbers::let_go;
   double least = score().over_noise(best_.left_at_last());
-  double ahead = race ? tie_score_of(score(), others->front().fitted) : -std::numeric_limits<double>::infinity();
+  double ahead = who.ahead;
   for (const auto& r : rivals)
     if (r.fitted.ok()) {
       least = std::min(least, score().over_noise(r.fitted.left_at_last()));
@@ -217,23 +194,23 @@ void Selection::fit_with_numbers(std::vector<Addition>& rivals, const std::vecto
     }
   const bool only_noise = least < rules::near_noise;
   const auto is_hopeless = [&](std::size_t i, const FitContext& context) {
-    if (!only_noise && i < at_once) return false;  // to first order holds near what is right
+    if (!only_noise && i < who.at_least) return false;  // to first order holds near what is right
     return !may_win(rivals[i].fitted, context, numbers, ahead);
   };
   const auto is_asked = [&](std::size_t i) {
-    const Addition& r = rivals[i];
-    if (!race) return true;
-    return r.slowness < slowest ? i < finalists || score_of(r.fitted) > best : score_of(r.fitted) > best_at_first;
+    return rivals[i].fitted.ok() && (i < who.first || score_of(rivals[i].fitted) > who.more_than);
   };
-  for (std::size_t first = 0; first < rivals.size() && !state_.stopped(); first += at_once) {
-    const std::size_t n = std::min(at_once, rivals.size() - first);
+  const std::size_t all = std::min(who.most, rivals.size());
+  for (std::size_t first = 0; first < all && !state_.stopped(); first += at_once) {
+    const std::size_t n = std::min(at_once, all - first);
     std::vector<FitsOfRival> answers(n);
-    state_.side_by_side(n, [&](std::size_t i, const FitContext& context) {
+    const auto fit_one = [&](std::size_t i, const FitContext& context) {
       const Addition& rival = rivals[first + i];
-      if (rival.fitted.ok() && is_asked(first + i) && !is_hopeless(first + i, context))
+      if (is_asked(first + i) && !is_hopeless(first + i, context))
         answers[i] = {{first + i, rival.tried.law, refitted(setting_, context, rival.fitted, numbers, few_renewals)}};
       return false;
-    });
+    };
+    state_.side_by_side(n, fit_one, state_.after(of_numbers));
     take_up(rivals, std::move(answers));
     for (std::size_t i = 0; i < n; ++i)
       if (const TableModel& f = rivals[first + i].fitted; f.ok()) {
@@ -334,27 +311,49 @@ bool Selection::is_itself(const Addition& rival) const {
   return why_not_itself(rival.tried, rival.tried.law, rival.fitted).empty();
 }
 
-/// Those that are quick first; the others where these leave more than noise.
+/// Those that are quick first, the likeliest of them with the user's numbers; the slow ones where these leave more than
+/// noise; and what is left of the quick ones where that is more than noise still. Of the slow ones the first are fitted
+/// with the numbers and those that explain more than the best of the quick; of the slowest those that explain more than
+/// the others did before their numbers were let go.
 void Selection::fit(std::vector<Addition>& rivals, int step) {
-  std::vector<Addition> all;
-  std::vector<TableModel> at_first;  // what they left, before the user's numbers were let go beside them
+  std::vector<Addition> all, others;  // of the quick those that have been asked, and those that have not
+  double at_first = -std::numeric_limits<double>::infinity();
+  const auto is_over = [&] {
+    return state_.stopped() || (!all.empty() && all.front().fitted.ok() &&
+                                score().over_noise(all.front().fitted.left_at_last()) < rules::near_noise);
+  };
   for (int slow = 0; slow <= slowest; ++slow) {
     std::vector<Addition> some;
     for (auto& r : rivals)
       if (r.slowness == slow) some.push_back(std::move(r));
-    const bool only_noise = !all.empty() && all.front().fitted.ok() &&
-                            score().over_noise(all.front().fitted.left_at_last()) < rules::near_noise;
-    if (!some.empty() && !only_noise && !state_.stopped()) {
+    if (!some.empty() && !is_over()) {
       fit_first_laws(some, step);
-      std::vector<TableModel> begun;
+      std::vector<TableModel> begun;  // what they left, before the user's numbers were let go beside them
       for (const auto& r : some)
         if (r.fitted.ok()) begun.push_back(without_prediction(r.fitted));
-      fit_with_numbers(some, slow == 0 ? nullptr : &all, at_first);
-      at_first.insert(at_first.end(), begun.begin(), begun.end());
+      const bool race = !all.empty() && all.front().fitted.ok();
+      WhoIsAsked who{.at_least = at_once};
+      if (slow == 0) who.most = at_once;
+      if (race) {
+        who.first = slow < slowest ? finalists : 0;
+        who.more_than = slow < slowest ? score_of(all.front().fitted) : at_first;
+        who.ahead = tie_score_of(score(), all.front().fitted);
+      }
+      fit_with_numbers(some, who);
+      for (const auto& f : begun) at_first = std::max(at_first, score_of(f));
+    }
+    if (slow == 0 && some.size() > at_once) {
+      others.assign(std::make_move_iterator(some.begin() + at_once), std::make_move_iterator(some.end()));
+      some.resize(at_once);
     }
     all.insert(all.end(), std::make_move_iterator(some.begin()), std::make_move_iterator(some.end()));
     sort(all);
   }
+  if (!others.empty() && !is_over())
+    fit_with_numbers(others, {.ahead = all.front().fitted.ok() ? tie_score_of(score(), all.front().fitted)
+                                                               : -std::numeric_limits<double>::infinity()});
+  all.insert(all.end(), std::make_move_iterator(others.begin()), std::make_move_iterator(others.end()));
+  sort(all);
   rivals = std::move(all);
   fit_richer_laws(rivals);
   settle_best(rivals);
@@ -373,8 +372,10 @@ const Addition& Selection::plainest_like(const Addition& rival, const std::vecto
 bool Selection::add_one(int step) {
   auto rivals = list(step);
   if (rivals.empty()) return false;
+  const bool was_left_out = std::exchange(left_some_out_, false);
   fit(rivals, step);
-  const bool broken_off = state_.stopped();
+  const bool broken_off = state_.stopped() || left_some_out_;
+  left_some_out_ = left_some_out_ || was_left_out;
   const StopScope to_its_end(nullptr);  // what was fitted until then is compared
   for (auto& r : rivals) r.tried.candidate = r.fitted.model;
   rounds_.push_back({best_, std::move(rivals)});
@@ -434,7 +435,7 @@ bool Selection::add_two(int step) {
     fit_first_laws(rivals, step);
     sort(rivals);
     rivals.resize(std::min(rivals.size(), at_once));
-    fit_with_numbers(rivals, nullptr, {});
+    fit_with_numbers(rivals, {.at_least = at_once});
     std::erase_if(rivals, [&](const Addition& r) { return r.fitted.ok() && !is_itself(r); });
     if (rivals.empty() || !rivals.front().fitted.ok()) continue;
     if (best && score_of(best->rivals.front().fitted) >= score_of(rivals.front().fitted)) continue;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <map>
 #include <memory>
 #include <string>
@@ -38,6 +39,8 @@ class Selection {
   const Nulls& nulls() const { return nulls_; }
   const TableModel& best() const { return best_; }
   const std::vector<Round>& rounds() const { return rounds_; }
+  /// Was somebody not asked, for time was short?
+  bool left_some_out() const { return left_some_out_; }
   const BlockScore& score() const { return *setting_.score; }
   const FitSetting& setting() const { return setting_; }
   double score_of(const TableModel& f) const { return hysteron::score_of(score(), f); }
@@ -56,8 +59,15 @@ class Selection {
   void fit(std::vector<Addition>& rivals, int step);
   void fit_first_laws(std::vector<Addition>& rivals, int step);
   void fit_richer_laws(std::vector<Addition>& rivals);
-  void fit_with_numbers(std::vector<Addition>& rivals, const std::vector<Addition>* others,
-                        const std::vector<TableModel>& others_at_first);
+  /// Who is fitted together with the user's numbers.
+  struct WhoIsAsked {
+    std::size_t most = std::numeric_limits<std::size_t>::max();   ///< of all, the likeliest
+    std::size_t first = std::numeric_limits<std::size_t>::max();  ///< of these so many,
+    double more_than = std::numeric_limits<double>::infinity();   ///< and those that explain more than this
+    std::size_t at_least = 0;  ///< so many also where a step to first order says that they cannot win
+    double ahead = -std::numeric_limits<double>::infinity();  ///< tie_score_of() others that have been fitted so
+  };
+  void fit_with_numbers(std::vector<Addition>& rivals, const WhoIsAsked& who);
   bool may_win(const TableModel& f, const FitContext& context, Numbers numbers, double ahead) const;
   void settle_best(std::vector<Addition>& rivals);
   void sort(std::vector<Addition>& rivals) const;
@@ -89,6 +99,7 @@ class Selection {
   TableModel best_;
   std::vector<LeftSums> left_;  ///< by all models that were fitted
   std::vector<Round> rounds_;
+  bool left_some_out_ = false;
 };
 
 }  // namespace hysteron

@@ -150,7 +150,7 @@ TEST_F(Sets, NothingIsClaimedOfWhichNotAllWereAskedOnceItIsEnough) {
   DiscoverOptions options;
   options.only = {"backlash", "sensor_nonlinearity"};
   options.progress = [&](const std::string& what, double) { begun = begun || what.starts_with("step 2"); };
-  options.enough = [&] { return begun; };
+  options.spent = [&] { return begun ? 1.0 : 0.0; };
   const Discovery d = discover(plain_gain(), data, registry, effects, options);
   EXPECT_TRUE(d.broken_off);
   ASSERT_EQ(d.steps.size(), 1u);

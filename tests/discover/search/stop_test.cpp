@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "discover/placement/add.h"
+#include "discover/search/search_state.h"
 #include "engine/diagram/error.h"
 #include "tests/discover/discoveries.h"
 #include "tests/discover/synthetic.h"
@@ -99,6 +100,45 @@ TEST_F(StopOfADiscovery, AtAnyMomentClaimsNothingThatExplainsNothing) {
     const Discovery now = found(all * k / moments);
     EXPECT_TRUE(now.steps.empty()) << k << " of " << moments << ": " << tried(now);
   }
+}
+
+TEST_F(StopOfADiscovery, WhoTakesLongLeavesTimeForThoseBehind) {
+  const DataSet data = of_a_device_with_a_past();
+  const Diagram diagram = plain_gain();
+  double clock = 0;
+  DiscoverOptions options;
+  options.spent = [&] { return clock; };
+  const SearchState state(diagram, data, registry, effects, options);
+  constexpr std::size_t n = 10;
+  constexpr double until = 0.5, tick = 1e-3, least = 5e-3;
+  std::vector<double> begun(n, -1.0), ended(n, -1.0);
+  const auto takes = [&](std::size_t i) { return i == 0 || i == 4 || i == n - 1 ? 1.0 : least; };
+  const auto job = [&](std::size_t i, const FitContext&) {
+    begun[i] = clock;
+    try {
+      while (clock < begun[i] + takes(i)) {
+        clock += tick;
+        look_up();
+      }
+    } catch (const Stopped&) {
+      ended[i] = clock;
+      throw;
+    }
+    return false;
+  };
+  state.side_by_side(n, job, until);
+  for (std::size_t i = 0; i < n; ++i) EXPECT_GE(begun[i], 0) << i << " was not begun";
+  // A tenth of the half; a sixth of what is left, for which five others wait; all that is left. Within ticks.
+  EXPECT_NEAR(ended[0], until / n, 2 * tick);
+  EXPECT_NEAR(ended[4] - begun[4], (until - begun[4]) / 6, 2 * tick);
+  EXPECT_NEAR(ended[n - 1], until, 2 * tick);
+  for (const std::size_t i : {1, 2, 3, 5, 6, 7, 8}) EXPECT_LT(ended[i], 0) << i << " was broken off";
+  clock = 0;
+  state.side_by_side(1, [&](std::size_t, const FitContext&) {
+    for (; clock < 0.9; clock += tick) look_up();
+    return false;
+  });
+  EXPECT_GE(clock, 0.9) << "nobody said until when";
 }
 
 TEST_F(StopOfADiscovery, BeforeTheModelWasSimulatedEndsItByTheCallersOwnScope) {
