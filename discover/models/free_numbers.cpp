@@ -44,7 +44,7 @@ void part_those_alike(const Law& law, std::vector<FreeParameter>& free) {
 }
 
 /// What single recordings have found begins there: beside another term it is no longer found by linear least squares.
-void begin_as_found(const CandidateModel& c, FreeParameter& f) {
+void begin_where_found(const CandidateModel& c, FreeParameter& f) {
   const auto& path = c.program->parameters[static_cast<std::size_t>(f.parameter)].path;
   for (const auto& v : c.of_recordings)
     if (v.recording == f.recording && v.path == path) f.start = std::clamp(v.value, f.lower, f.upper);
@@ -78,7 +78,7 @@ std::vector<FreeParameter> free_of(const FitContext& context, const CandidateMod
     if (!is_new && lines == KnownLines::held)
       std::erase_if(standing.law.free, [&](const LawParameter& p) { return is_known_line(context, c, standing, p); });
     for (auto& f : free_of_law(*c.program, standing, is_new, recordings)) {
-      if (!is_new && f.recording >= 0) begin_as_found(c, f);
+      if (!is_new && f.recording >= 0) begin_where_found(c, f);
       std::erase_if(free, [&](const FreeParameter& have) {
         return have.parameter == f.parameter && have.recording == f.recording;
       });

@@ -206,9 +206,9 @@ struct DiscoverOptions {
   /// Asked often, by any thread, once the user's model is simulated; true = end with what was found so far, at once. A
   /// further effect is claimed only where all that could be it were asked.
   std::function<bool()> stop;
-  /// Asked likewise: the share of the time to search that is over. From one on nothing new is begun: whether all that was
-  /// found is still needed is looked at until `stop`. A fit that takes more than its part of what is left waits until the
-  /// others were asked.
+  /// Asked likewise: the share of the time to search that is over. From one on nothing new is begun: whether all that
+  /// was found is still needed is looked at until `stop`. A fit that takes more than its part of what is left is broken
+  /// off there, with what it has found.
   std::function<double()> spent;
   static constexpr double to_search = 0.8;  ///< of a limit of time
   Threads threads{};                        ///< candidates side by side; no answer depends on it

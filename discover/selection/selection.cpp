@@ -20,10 +20,10 @@ namespace hysteron {
 namespace {
 
 constexpr std::size_t at_once = 8;  // rivals that are fitted with all numbers before anybody looks at what is left
-constexpr double of_first_laws = 0.5, of_numbers = 0.4;  // of the time that is left, where it is limited
-constexpr int few_renewals = 3;                          // of weights, for rivals that may not win
-constexpr std::size_t enriched_names = 4;                // whose richer laws are fitted
-constexpr std::size_t finalists = 3;  // that are fitted until their weights are those of what they leave
+constexpr double half = 0.5;        // of the time that is left, where it is limited: what comes next has the other
+constexpr int few_renewals = 3;     // of weights, for rivals that may not win
+constexpr std::size_t enriched_names = 4;  // whose richer laws are fitted
+constexpr std::size_t finalists = 3;       // that are fitted until their weights are those of what they leave
 
 /// What a score needs.
 TableModel without_prediction(const TableModel& f) {
@@ -131,7 +131,7 @@ std::vector<Addition> Selection::list(int step) {
   return rivals;
 }
 
-/// Where time is short and a fit takes much of it, the others are asked first, and it then with less effort.
+/// Where time is short, who finds nothing in its part of it is asked again behind the others, with less effort.
 void Selection::fit_first_laws(std::vector<Addition>& rivals, int step) {
   std::vector<std::pair<std::size_t, std::size_t>> jobs;  // rival, law
   for (std::size_t i = 0; i < rivals.size(); ++i)
@@ -139,7 +139,7 @@ void Selection::fit_first_laws(std::vector<Addition>& rivals, int step) {
       if (l == 0 || rivals[i].tried.laws[l].apart) jobs.emplace_back(i, l);
   // Each answer of its own: the score that orders them is that of all.
   std::vector<FitsOfRival> answers(jobs.size());
-  const double until = state_.after(of_first_laws);
+  const double until = state_.after(half);
   const auto fit_one = [&](std::size_t j, const FitContext& context, bool quickly) {
     const auto [i, law] = jobs[j];
     const TriedEffect& t = rivals[i].tried;
@@ -210,7 +210,7 @@ void Selection::fit_with_numbers(std::vector<Addition>& rivals, const WhoIsAsked
         answers[i] = {{first + i, rival.tried.law, refitted(setting_, context, rival.fitted, numbers, few_renewals)}};
       return false;
     };
-    state_.side_by_side(n, fit_one, state_.after(of_numbers));
+    state_.side_by_side(n, fit_one, state_.after(half));
     take_up(rivals, std::move(answers));
     for (std::size_t i = 0; i < n; ++i)
       if (const TableModel& f = rivals[first + i].fitted; f.ok()) {

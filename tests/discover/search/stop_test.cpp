@@ -21,6 +21,16 @@ using namespace testing;
 
 class StopOfADiscovery : public Discoveries {
  protected:
+  std::atomic<long> asked{0};  ///< by the last search: whether it is to stop
+
+  /// What is found of a plain gain until it has been asked so often.
+  Discovery stopped_at(long at, const DataSet& data, const std::vector<std::string>& of) {
+    asked = 0;
+    DiscoverOptions options;
+    options.stop = [&] { return ++asked >= at; };
+    return discovered(plain_gain(), data, of, options);
+  }
+
   /// Plays, of which the recordings do not begin in the virgin state: an effect that stands upon another one.
   static DataSet of_a_device_with_a_past() {
     constexpr double white = 2e-4;
@@ -47,12 +57,8 @@ class StopOfADiscovery : public Discoveries {
 
 TEST_F(StopOfADiscovery, AtAnyMomentTellsWhatWasFound) {
   const DataSet data = of_a_device_with_a_past();
-  std::atomic<long> asked{0};
   const auto found = [&](long at) {
-    asked = 0;
-    DiscoverOptions options;
-    options.stop = [&] { return ++asked >= at; };
-    return discovered(plain_gain(), data, {"hysteresis", "initial_remanence", "amplifier_lag", "calibration"}, options);
+    return stopped_at(at, data, {"hysteresis", "initial_remanence", "amplifier_lag", "calibration"});
   };
   const Discovery whole = found(1'000'000'000);
   ASSERT_FALSE(whole.steps.empty()) << tried(whole);
@@ -86,13 +92,7 @@ TEST_F(StopOfADiscovery, AtAnyMomentClaimsNothingThatExplainsNothing) {
     list.push_back(recording(std::to_string(r) + ".csv", r < 2 ? Role::train : Role::validate, t, u, std::move(y)));
   }
   const DataSet data = data_set(std::move(list), 1e-3);
-  std::atomic<long> asked{0};
-  const auto found = [&](long at) {
-    asked = 0;
-    DiscoverOptions options;
-    options.stop = [&] { return ++asked >= at; };
-    return discovered(plain_gain(), data, {"hysteresis", "backlash", "creep", "calibration"}, options);
-  };
+  const auto found = [&](long at) { return stopped_at(at, data, {"hysteresis", "backlash", "creep", "calibration"}); };
   ASSERT_TRUE(found(1'000'000'000).steps.empty());
   const long all = asked;
   constexpr long moments = 24;
