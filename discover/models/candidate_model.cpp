@@ -104,6 +104,10 @@ CandidateModel with_effect(const FitContext& context, const CandidateModel& befo
   const bool new_zero = effect.moves_zero && !at.offset_is_free;
   c.placed.push_back({&effect, law, place, c.change.name, new_zero ? at.zeros : std::vector<std::string>{}});
   if (law.reweighs) c.placed.back().weights = at.weights;
+  if (at.from_data && place.by.empty()) {
+    c.placed.back().range = at.range();
+    c.placed.back().side_range = at.side_highest - at.side_lowest;
+  }
   if (before.program)
     for (const auto* anew : {&c.placed.back().zeros, &c.placed.back().weights})
       for (const auto& path : *anew)
@@ -203,6 +207,7 @@ Prediction predicted(const FitContext& context, const CandidateModel& candidate,
   CandidateModel c = candidate;
   c.program = compile(c.diagram, *context.registry);
   DataModel model(c.program, context.data, accuracy(context, *c.program, Effort::final));
+  begin_as_found(c, model);
   std::vector<FreeParameter> free;
   for (const auto& s : c.placed)
     for (auto& f : free_of_law(*c.program, s, false, recordings))

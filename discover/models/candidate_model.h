@@ -25,6 +25,8 @@ struct PlacedEffect {
   std::vector<std::string> zeros;          ///< the user's constants that are found anew with it (Effect::moves_zero)
   std::vector<std::string> weights{};      ///< weights of operators that are (Law::reweighs)
   std::map<std::string, double> before{};  ///< of these, what they were without the effect [SI]
+  /// [SI] what the signal spans on whose wire it stands, and the one that it reads besides; 0: nobody looked.
+  double range = 0, side_range = 0;
 };
 
 /// A value of one recording alone: the amplitude of a line whose phase is another one in each.
@@ -123,7 +125,8 @@ bool calibrates(const PlacedEffect& standing);
 /// zero that is free anyway is no law's.
 std::vector<std::string> free_anyway(const FitContext& context, const CandidateModel& candidate);
 
-/// What the candidate says of other recordings, those of the test: values of single recordings are found on them.
+/// What the candidate says of these recordings, which may be others (those of the test) or begin otherwise: values of
+/// single recordings are found on them.
 Prediction predicted(const FitContext& context, const CandidateModel& candidate, const std::vector<int>& recordings);
 /// The same of its train and validate recordings, with the lines of the mains silent and nothing fitted.
 Prediction without_lines(const FitContext& context, const CandidateModel& candidate);

@@ -351,9 +351,40 @@ bool any_recorded(const DataSet& data, const std::vector<std::string>& outputs) 
   });
 }
 
+/// How far the states of a block that stands on a wire may be from equilibrium when a recording begins: what it follows
+/// has moved no further before than it moves in the recordings. Without that an effect of no size at all would describe
+/// any drift, by what it remembers of an endless past.
+double start_sigma_of(const PlacedEffect& s, const BlockInstance& block, std::size_t state) {
+  const Declaration& d = block.kernel->declaration;
+  const auto& unit = d.states[std::min(state, d.states.size() - 1)].unit;  // one stands for all of a kind
+  const auto follows = [&](std::size_t port) { return port < d.inputs.size() && d.inputs[port].unit == unit; };
+  const double range = follows(0) ? s.range : follows(1) ? s.side_range : 0;
+  return range > 0 ? range : std::numeric_limits<double>::infinity();
+}
+
+/// Of each free initial state of the model; empty where nothing holds any.
+std::vector<double> start_sigmas(const CandidateModel& c, const DataModel& model) {
+  std::map<std::string, double> held;
+  for (const auto& s : c.placed)
+    for (const auto& block : model.program().blocks) {
+      if (block.path != s.name && !block.path.starts_with(s.name + "/")) continue;
+      for (int i = 0; i < block.sizes.states; ++i)
+        held[model.program().state_names[static_cast<std::size_t>(block.x_begin + i)]] =
+            start_sigma_of(s, block, static_cast<std::size_t>(i));
+    }
+  if (held.empty()) return {};
+  std::vector<double> sigma;
+  for (const auto& state : model.free_initial_states()) {
+    const auto known = held.find(state);
+    sigma.push_back(known == held.end() ? std::numeric_limits<double>::infinity() : known->second);
+  }
+  return sigma;
+}
+
 }  // namespace
 
 void begin_as_found(const CandidateModel& c, DataModel& model) {
+  if (!model.free_initial_states().empty()) model.hold_starts(start_sigmas(c, model));
   if (!model.starts_are_searched() || c.starts.empty()) return;
   for (int r = 0; r < model.n_recordings(); ++r) {
     const auto& found = c.starts[static_cast<std::size_t>(r)];

@@ -12,7 +12,8 @@ namespace hysteron {
 /// effect that starts from its law instead of its values, -1 = none.
 void fit_candidate_model(const FitContext& context, CandidateModel& c, Effort effort, int fresh);
 
-/// Recordings whose start is searched for begin where the model was last found to begin.
+/// Recordings whose start is searched for begin where the model was last found to begin, and states of effects no
+/// further from equilibrium than what they follow moves.
 void begin_as_found(const CandidateModel& c, DataModel& model);
 
 /// How finely candidates are simulated.

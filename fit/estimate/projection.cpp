@@ -249,7 +249,7 @@ std::vector<Dense> Projection::initial_basis_at(std::span<const double> z, const
     const auto& initial = prediction.initial[static_cast<std::size_t>(r)];
     Dense columns(judge_.size(r), initial.size());
     for (std::size_t s = 0; s < initial.size(); ++s) judge_.whiten(r, initial[s], columns.col(s));
-    basis[k] = orthonormal_basis(columns, dependent);
+    basis[k] = held_basis(columns, prediction.initial_sigma, dependent);
   }
   return basis;
 }

@@ -1,6 +1,7 @@
 #include "fit/estimate/starts.h"
 
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -22,21 +23,38 @@ struct Left {
   double fall = 0;           ///< of chi2 there
 };
 
+double sigma_of(const DataModel& model, std::size_t state) {
+  const auto& sigma = model.start_sigma();
+  return state < sigma.size() ? sigma[state] : std::numeric_limits<double>::infinity();
+}
+
+/// A row for each start that is held: zero is what is known of it.
+void hold(const DataModel& model, int r, std::vector<double>& residual) {
+  const auto& start = model.start_of(r);
+  for (std::size_t k = 0; k < model.free_initial_states().size(); ++k)
+    if (const double sigma = sigma_of(model, k); std::isfinite(sigma))
+      residual.push_back(k < start.size() ? -start[k] / sigma : 0.0);
+}
+
 Left left_at(DataModel& model, const Judge& judge, std::span<const ParameterValue> values, int r, bool with_step) {
   Left left;
   Prediction prediction = model.predict(values, std::span<const int>(&r, 1), with_step);
   if (!prediction.ok) return left;
   auto& initial = prediction.initial[static_cast<std::size_t>(r)];
   const auto responses = std::exchange(initial, {});
-  const auto residual = judge.residual(model, prediction, r);
+  auto residual = judge.residual(model, prediction, r);
+  const std::size_t rows = residual.size();
+  hold(model, r, residual);
   left.ok = true;
   left.chi2 = dot(residual.data(), residual.data(), residual.size());
   if (!with_step) return left;
   Dense columns(residual.size(), responses.size());
   std::vector<double> scale;
+  std::size_t row_of_held = rows;
   for (std::size_t k = 0; k < responses.size(); ++k) {
     double* column = columns.col(k);
     judge.whiten(r, responses[k], column);
+    if (const double sigma = sigma_of(model, k); std::isfinite(sigma)) column[row_of_held++] = 1 / sigma;
     const double l = length(column, columns.rows);
     scale.push_back(l > 0 ? 1 / l : 0);
     for (std::size_t i = 0; i < columns.rows; ++i) column[i] *= scale[k];

@@ -135,6 +135,7 @@ Prediction DataModel::predict(std::span<const ParameterValue> values, std::span<
   Prediction prediction;
   prediction.y.resize(c.bound.size());
   prediction.initial.resize(c.bound.size());
+  prediction.initial_sigma = c.start_sigma;
   std::vector<std::string> errors(c.bound.size());
   const auto predict_recording = [&](int r) {
     c.predict_one(r, values, with_initial, prediction, errors[static_cast<std::size_t>(r)]);
@@ -161,6 +162,7 @@ std::vector<Prediction> DataModel::predict_each(std::span<const Trial> trials, s
   for (auto& prediction : predictions) {
     prediction.y.resize(c.bound.size());
     prediction.initial.resize(c.bound.size());
+    prediction.initial_sigma = c.start_sigma;
   }
   std::vector<std::vector<std::string>> errors(c.bound.size());
   c.side_by_side(recordings,
@@ -200,6 +202,8 @@ const std::vector<double>& DataModel::start_of(int recording) const {
 void DataModel::begin_at(int recording, std::vector<double> start) {
   content_->bound[static_cast<std::size_t>(recording)].start = std::move(start);
 }
+void DataModel::hold_starts(std::vector<double> sigma) { content_->start_sigma = std::move(sigma); }
+const std::vector<double>& DataModel::start_sigma() const { return content_->start_sigma; }
 const std::vector<std::string>& DataModel::remarks() const { return content_->remarks; }
 long DataModel::runs() const { return content_->runs; }
 long DataModel::failures() const { return content_->failures; }

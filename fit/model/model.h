@@ -36,6 +36,7 @@ struct Prediction {
   std::vector<std::vector<Rows>> y{};  ///< [recording][output] [SI]; empty for recordings that were not asked for
   /// [recording][initial state][output]: response to one unit of each initial state that is free per recording.
   std::vector<std::vector<std::vector<Rows>>> initial{};
+  std::vector<double> initial_sigma{};  ///< of these states: DataModel::hold_starts()
 };
 
 /// How the way to a row is cut: into parts of one length, or, where `per_octave` is not 0, into so many to each
@@ -136,6 +137,10 @@ class DataModel {
   /// says of the responses to initial states holds about there.
   const std::vector<double>& start_of(int recording) const;
   void begin_at(int recording, std::vector<double> start);
+  /// How far from equilibrium each of the free initial states may be [SI], as one standard deviation; infinity:
+  /// anywhere. Empty: all anywhere.
+  void hold_starts(std::vector<double> sigma);
+  const std::vector<double>& start_sigma() const;
   /// What the user must be told (a state whose start cannot be estimated linearly ...).
   const std::vector<std::string>& remarks() const;
 

@@ -7,6 +7,8 @@
 namespace hysteron {
 namespace {
 
+constexpr double dependent = 1e-10;  // initial states of which the outputs show only a combination
+
 /// Whitened responses to the initial states that are free in this recording, one column each.
 Dense initial_columns(const Judge& judge, const Prediction& prediction, int recording) {
   const auto& initial = prediction.initial[static_cast<std::size_t>(recording)];
@@ -118,7 +120,7 @@ std::vector<double> Judge::residual(const DataModel& model, const Prediction& pr
   std::vector<double> w(size(recording));
   whiten(recording, differences(model, prediction, recording), w.data());
   if (!prediction.initial[static_cast<std::size_t>(recording)].empty())
-    clear_of(orthonormal_basis(initial_columns(*this, prediction, recording), 1e-10), w.data());
+    clear_of(held_basis(initial_columns(*this, prediction, recording), prediction.initial_sigma, dependent), w.data());
   return w;
 }
 
@@ -152,7 +154,7 @@ std::vector<double> amounts_of_initial(const DataModel& model, const Judge& judg
                                        int recording) {
   std::vector<double> w(judge.size(recording));
   judge.whiten(recording, differences(model, prediction, recording), w.data());
-  return minimum_norm(initial_columns(judge, prediction, recording), w, 1e-10).x;
+  return held_solution(initial_columns(judge, prediction, recording), prediction.initial_sigma, w, dependent);
 }
 
 }  // namespace

@@ -81,8 +81,66 @@ Dense orthonormal_basis(const Dense& a, double tolerance) {
   }
 }
 
+namespace {
+
+bool is_held(std::span<const double> sigma, std::size_t k) { return k < sigma.size() && std::isfinite(sigma[k]); }
+
+/// Columns that are held, or the others, each times its sigma.
+Dense chosen(const Dense& a, std::span<const double> sigma, bool held) {
+  Dense some(a.rows, 0);
+  for (std::size_t j = 0; j < a.cols; ++j) {
+    if (is_held(sigma, j) != held) continue;
+    some.a.insert(some.a.end(), a.col(j), a.col(j) + a.rows);
+    if (held)
+      for (std::size_t i = 0; i < a.rows; ++i) some(i, some.cols) *= sigma[j];
+    ++some.cols;
+  }
+  return some;
+}
+
+}  // namespace
+
+// Beside what nothing holds a column counts by what is left of it. With a = U S V' of these, each times its sigma, the
+// least is b' (1 - U S^2/(1 + S^2) U') b, the square of b - U f U' b with f = 1 - 1/sqrt(1 + S^2) (ridge regression:
+// Hoerl and Kennard, Technometrics 12 (1970) 55).
+Dense held_basis(const Dense& a, std::span<const double> sigma, double tolerance) {
+  Dense basis = orthonormal_basis(chosen(a, sigma, false), tolerance);
+  Dense held = chosen(a, sigma, true);
+  if (held.cols == 0) return basis;
+  for (std::size_t j = 0; j < held.cols; ++j) clear_of(basis, held.col(j));
+  const Singular singular = singular_values(held);
+  for (std::size_t k = 0; k < held.cols; ++k) {
+    const double s = singular.s[k];
+    if (!(s > tolerance)) break;
+    const double share = std::sqrt(1 - 1 / std::sqrt(1 + s * s));
+    for (std::size_t i = 0; i < a.rows; ++i) {
+      double u = 0;
+      for (std::size_t j = 0; j < held.cols; ++j) u += held(i, j) * singular.v(j, k);
+      basis.a.push_back(share * u / s);
+    }
+    ++basis.cols;
+  }
+  return basis;
+}
+
+std::vector<double> held_solution(const Dense& a, std::span<const double> sigma, std::span<const double> b,
+                                  double tolerance) {
+  std::size_t held = 0;
+  for (std::size_t j = 0; j < a.cols; ++j) held += is_held(sigma, j) ? 1 : 0;
+  if (held == 0) return minimum_norm(a, b, tolerance).x;
+  Dense more(a.rows + held, a.cols);
+  std::vector<double> right(b.begin(), b.end());
+  right.resize(more.rows, 0.0);
+  std::size_t row = a.rows;
+  for (std::size_t j = 0; j < a.cols; ++j) {
+    std::copy(a.col(j), a.col(j) + a.rows, more.col(j));
+    if (is_held(sigma, j)) more(row++, j) = 1 / sigma[j];
+  }
+  return minimum_norm(more, right, tolerance).x;
+}
+
 void clear_of(const Dense& q, double* x) {
-  // The columns are orthonormal, so taking them out one after the other is the same and keeps rounding smaller.
+  // The columns are orthogonal, so taking them out one after the other is the same and keeps rounding smaller.
   for (std::size_t j = 0; j < q.cols; ++j) {
     const double f = dot(q.col(j), x, q.rows);
     for (std::size_t i = 0; i < q.rows; ++i) x[i] -= f * q(i, j);

@@ -39,7 +39,14 @@ MinimumNorm minimum_norm(const Dense& a, std::span<const double> b, double toler
 /// Orthonormal basis of the columns of `a`, each first scaled to length one; dependent ones are left out.
 Dense orthonormal_basis(const Dense& a, double tolerance);
 
-/// x - Q Q' x for orthonormal columns Q; x has q.rows numbers.
+/// Columns Q of which clear_of(Q, b) leaves the least of |b - a x|^2 + sum (x/sigma)^2, as a length squared; sigma:
+/// one per column, infinity where nothing holds it (orthonormal_basis() where nothing holds any).
+Dense held_basis(const Dense& a, std::span<const double> sigma, double tolerance);
+/// That x.
+std::vector<double> held_solution(const Dense& a, std::span<const double> sigma, std::span<const double> b,
+                                  double tolerance);
+
+/// x - Q Q' x for orthogonal columns Q; x has q.rows numbers.
 void clear_of(const Dense& q, double* x);
 
 struct Singular {
