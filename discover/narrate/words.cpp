@@ -84,10 +84,10 @@ std::string falls_of(const ModelError& before, const ModelError& after) {
   return fmt::format("{}", fmt::join(falls, ", "));
 }
 
-std::string error_fall(const ModelError& before, const ModelError& after) {
+std::string error_fall(const std::string& on, const ModelError& before, const ModelError& after) {
   const std::string falls = falls_of(before, after);
-  return fmt::format("error on recordings not used for the fit {:.3g} % -> {:.3g} %{}", 100 * before.nrmse_validate,
-                     100 * after.nrmse_validate, falls.empty() ? "" : " (" + falls + ")");
+  return fmt::format("error on {} {:.3g} % -> {:.3g} %{}", on, 100 * before.nrmse_validate, 100 * after.nrmse_validate,
+                     falls.empty() ? "" : " (" + falls + ")");
 }
 
 /// "0.42 um, 3.2 %"
@@ -155,6 +155,10 @@ std::string names_of(const std::vector<FoundStep>& steps, std::size_t step) {
   for (std::size_t i = 0; i < steps.size(); ++i)
     if (i != step && names_of(steps[i]) == name) return name + " at " + steps[step].winner.place;
   return name;
+}
+
+std::string judged_on(const Discovery& found) {
+  return found.fitted_to_all ? "recordings to judge (fitted to as well)" : "recordings not used for the fit";
 }
 
 std::string sizes_text(const ModelError& error, Role role) {
@@ -235,10 +239,10 @@ Candidate candidate_of(const TriedEffect& t, int step) {
   return c;
 }
 
-std::string step_sentence(const FoundStep& s, const Effect& effect) {
+std::string step_sentence(const FoundStep& s, const Effect& effect, const std::string& on) {
   std::string text = fmt::format("{} {}", effect_words(effect, s.winner.same_effects), place_text(s.winner));
   if (!s.winner.summary.empty()) text += ": " + s.winner.summary;
-  text += what_tells_places(effect, s.winner.same_effects) + "; " + error_fall(s.before, s.after);
+  text += what_tells_places(effect, s.winner.same_effects) + "; " + error_fall(on, s.before, s.after);
   if (!s.ties.empty()) {
     std::vector<std::string> names;
     for (const auto& tie : s.ties) names.push_back(fmt::format("{} at {}", tie.effect, spoken(tie.place)));
@@ -252,7 +256,7 @@ namespace {
 std::string headline_of(const Discovery& d) {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < d.steps.size(); ++i) names.push_back(names_of(d.steps, i));
-  const std::string fall = error_fall(d.base, d.final_error);
+  const std::string fall = error_fall(judged_on(d), d.base, d.final_error);
   const std::string asked =
       d.asked_for.empty() ? "" : fmt::format(" of those asked for ({})", fmt::join(d.asked_for, ", "));
   const std::string tried = asked + (d.broken_off ? " that was tried before the search was stopped" : "");
@@ -290,7 +294,7 @@ std::string other_numbers(const Discovery& d) {
     list.push_back(fmt::format("{} is {} than in the diagram", d.other_numbers[i].path, further(d.other_numbers[i])));
   if (d.other_numbers.size() > named) list.push_back(fmt::format("{} more", d.other_numbers.size() - named));
   const std::string fall =  // beside effects, numbers alone are a fit to what these do
-      d.steps.empty() ? fmt::format("With them the {}. ", error_fall(d.as_given, d.base)) : "";
+      d.steps.empty() ? fmt::format("With them the {}. ", error_fall(judged_on(d), d.as_given, d.base)) : "";
   return fmt::format("Parameters of the model differ from those of the device: {}. {}", fmt::join(list, ", "), fall);
 }
 
@@ -313,7 +317,7 @@ void tell_what_is_left(Discovery& d) {
   auto& say = d.sentences;
   for (const auto& s : d.steps) say.push_back(s.sentence);
   if (d.verdict == Verdict::unexplained)
-    say.push_back(fmt::format("The residual on recordings not used for the fit is {}{}.", left_text(d.final_error),
+    say.push_back(fmt::format("The residual on {} is {}{}.", judged_on(d), left_text(d.final_error),
                               d.structure ? "" : ", without a spectral line, ripple, kink, jumps or bursts"));
   else if (!d.steps.empty())
     say.push_back(d.remainder == Remainder::noise

@@ -100,9 +100,9 @@ void tell_wandering(SearchState& state) {
     const Unit& unit = state.base_model->output_unit(static_cast<int>(o));
     state.d.warnings.push_back(fmt::format(
         "the mains is another one in each recording: its amplitude and phase were followed there, every two seconds "
-        "where rows suffice: {} rms of {} on recordings not used for the fit. A diagram holds one steady line only: "
+        "where rows suffice: {} rms of {} on {}. A diagram holds one steady line only: "
         "from its file alone the error is that much larger, and nothing else was looked for there",
-        size_text(rms[o], unit), state.base_model->outputs()[o]));
+        size_text(rms[o], unit), state.base_model->outputs()[o], judged_on(state.d)));
   }
 }
 
@@ -138,7 +138,8 @@ void take_final_summaries(SearchState& state) {
 
 void tell_final_values(SearchState& state) {
   state.unless_stopped([&] { take_final_summaries(state); });
-  for (auto& step : state.d.steps) step.sentence = step_sentence(step, state.effects.get(step.winner.effect));
+  for (auto& step : state.d.steps)
+    step.sentence = step_sentence(step, state.effects.get(step.winner.effect), judged_on(state.d));
 }
 
 /// Where no effect was found: a structure of what the user's model leaves in recordings that judge, else in all.

@@ -184,14 +184,19 @@ struct Discovery {
   std::vector<SmoothInput> smooth_inputs;  ///< all figures are with these (see as_found)
   std::vector<OtherNumber> other_numbers;  ///< the furthest from what is written first; all figures are with these
   std::vector<std::string> found_starts;  ///< recordings that do not begin at rest, by name; all figures are with these
-  std::vector<EffectLimit> limits;        ///< of what was not found, where only noise is left
-  std::vector<FittedModel> table;         ///< where DiscoverOptions::keeps_table asks for it
+  /// Recordings to fit to do not determine the numbers of what was found, so they were fitted to those to judge, too.
+  bool fitted_to_all = false;
+  std::vector<EffectLimit> limits;  ///< of what was not found, where only noise is left
+  std::vector<FittedModel> table;   ///< where DiscoverOptions::keeps_table asks for it
   Diagram base_diagram, final_diagram;
   ModelError final_error;
   Prediction final_prediction;  ///< of the final model on train and validate recordings, with what is found in each
                                 ///< (add_zeros)
   long model_runs = 0;
 };
+
+/// On which recordings the error is told: "recordings not used for the fit", where nothing was fitted to these.
+std::string judged_on(const Discovery& found);
 
 struct DiscoverOptions {
   int max_steps = 3;                    ///< 1 = diagnose: name the missing effect, do not go on

@@ -6,10 +6,9 @@
 
 namespace hysteron {
 
-std::string what_it_takes(const TriedEffect& tried) {
-  return fmt::format(
-      "explains {} of the error above the noise on recordings not used for the fit (chi2 falls by {:.0f})",
-      percent(std::clamp(tried.share, 0.0, 1.0)), tried.fall_validate);
+std::string what_it_takes(const TriedEffect& tried, const std::string& on) {
+  return fmt::format("explains {} of the error above the noise on {} (chi2 falls by {:.0f})",
+                     percent(std::clamp(tried.share, 0.0, 1.0)), on, tried.fall_validate);
 }
 
 std::string why_implausible(const Effect& effect, const Law& law, const CandidateModel& fitted, const Excitation& at) {

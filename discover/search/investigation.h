@@ -53,8 +53,8 @@ inline bool falls_in_both_roles(const ModelError& now, const ModelError& was) {
          was.evidence_validate - now.evidence_validate > rules::claim_fall;
 }
 
-/// Why it is claimed: what it takes away on recordings not used for the fit.
-std::string what_it_takes(const TriedEffect& tried);
+/// Why it is claimed: what it takes away on the recordings to judge (judged_on()).
+std::string what_it_takes(const TriedEffect& tried, const std::string& judged_on);
 
 /// Why the effect that was fitted last, by this law, is not itself, though it may fit (Effect::implausible); "" = it
 /// is.
@@ -67,7 +67,7 @@ std::string percent(double share);
 std::vector<FoundParameter> found_parameters(const CandidateModel& c, const Excitation& at);
 Candidate candidate_of(const TriedEffect& tried, int step);
 /// "hysteresis behind u: a loop of about 14 % ...; error on validation 18.3 % -> 3.5 %"; each output in its own unit.
-std::string step_sentence(const FoundStep& step, const Effect& effect);
+std::string step_sentence(const FoundStep& step, const Effect& effect, const std::string& judged_on);
 /// Of the effect that stands at this index, with the values of the whole model; "" where its law says nothing.
 std::string summary_of(const CandidateModel& c, std::size_t standing, const Excitation& at);
 /// Headline, sentences, warnings of the finished discovery.

@@ -16,6 +16,7 @@
 #include "discover/selection/limits.h"
 #include "discover/selection/selection.h"
 #include "discover/selection/structure_term.h"
+#include "discover/selection/told.h"
 #include "engine/diagram/error.h"
 #include "engine/diagram/stop.h"
 
@@ -32,15 +33,6 @@ struct Asked {
   const DiscoverOptions& options;
 };
 
-/// The model that is told: with the fewest of the user's numbers let go, with intervals, and what it is without its
-/// last terms.
-struct Told {
-  std::map<std::string, double> kept;  ///< numbers that are not what is written, as written [SI]
-  FitContext context;
-  std::vector<CandidateModel> chain;            ///< [k]: with the first k terms; the last is the whole model
-  std::vector<std::vector<std::size_t>> terms;  ///< of the whole model
-};
-
 /// Recordings with a model of them. Stays where it is: what was found refers to it.
 struct Search {
   /// `facts`: where recordings begin and how inputs move between their samples, as far as that was found (as_found).
@@ -53,44 +45,12 @@ struct Search {
   }
 
   SearchState state;
-  std::optional<SmoothInput> smooth{};   ///< an input that moves smoothly, seen on the way: all begins anew with it
+  // Seen on the way, and all begins anew with it:
+  std::optional<SmoothInput> smooth{};  ///< an input that moves smoothly
+  std::vector<std::string> moving{};    ///< recordings that do not begin at rest
+  bool begins_anew() const { return smooth || !moving.empty(); }
   std::optional<Selection> selection{};  ///< where effects were searched in these recordings
 };
-
-/// In the recordings of `state`, from what was found in those that were searched in.
-Told to_be_told(SearchState& state, Search& searched) {
-  Told told;
-  const Selection& selection = *searched.selection;
-  const FitSetting& setting = selection.setting();
-  TableModel best = selection.best();
-  if (best.numbers == Numbers::let_go)
-    state.unless_stopped(
-        [&] { best = with_fewest_numbers(setting, searched.state.context, selection.score(), best, told.kept); });
-  const FitSetting few = setting.with(told.kept);
-  told.context =
-      context_for(few, state.context, weights_of(few, best), told.kept.empty() ? Numbers::written : Numbers::let_go);
-  told.context.data = state.data;  // others judge
-  const auto of_all = std::exchange(told.context.derivatives, std::make_shared<DerivativeStore>());
-  const bool elsewhere = &state != &searched.state;
-  CandidateModel whole = best.model;
-  if (elsewhere) whole.cuts.clear();  // rows of others
-  CandidateModel final;
-  state.unless_stopped([&] { final = refit(told.context, whole, Effort::final); });
-  if (final.ok || elsewhere) whole = std::move(final);
-  told.terms = terms_of(whole);
-  told.chain.assign(told.terms.size() + 1, whole);
-  for (std::size_t k = told.terms.size(); k-- > 0 && whole.ok;) {
-    CandidateModel before = told.chain[k + 1];
-    // Terms before this one leave later: its own effects stand where they stand in the whole model, less those gone.
-    for (std::size_t i = before.placed.size(); i-- > 0 && before.ok;)
-      if (before.placed[i].effect == whole.placed[told.terms[k].front()].effect)
-        before = without(told.context, before, i);
-    told.chain[k] = before.ok ? refit(told.context, before, Effort::full) : before;
-    if (!told.chain[k].ok) told.chain[k] = k == 0 ? state.base : told.chain[k + 1];
-  }
-  of_all->count(told.context.derivatives->runs());
-  return told;
-}
 
 /// Of the candidates of all rounds the one that stands as this term.
 TriedEffect tried_as(const Selection& selection, const PlacedEffect& s) {
@@ -160,7 +120,7 @@ void tell_step(SearchState& state, Search& searched, const Told& told, std::size
   w.fall_validate = before.evidence_validate - w.candidate.error_of.evidence_validate;
   w.share = std::clamp(share_of(before, w.candidate.error_of, {}), 0.0, 1.0);
   w.fall_by_recording = fall_by_recording(before, w.candidate.error_of);
-  w.reason = what_it_takes(w);
+  w.reason = what_it_takes(w, judged_on(state.d));
   const bool alone = told.chain.size() == 2;
   const int step = static_cast<int>(k) + 1;
   unless_it_fails(state, [&] {
@@ -283,13 +243,37 @@ void tell_numbers(SearchState& state, const FitSetting& setting, const Told& tol
   });
 }
 
+void tell_fitted_to_all(SearchState& state, const Told& told) {
+  state.d.fitted_to_all = told.fitted_to_all;
+  if (!told.fitted_to_all) return;
+  const auto of_role = [&](Role role) {
+    std::vector<std::string> names;
+    for (const auto& r : state.data->recordings)
+      if (r.role == role) names.push_back(r.name);
+    return fmt::format("{}", fmt::join(names, ", "));
+  };
+  state.d.warnings.push_back(fmt::format(
+      "{} alone do not say how large it is: its numbers were fitted to {} too, and no other recording judges "
+      "them. Record more that moves like these, and give one the role \"train\"",
+      of_role(Role::train), of_role(Role::validate)));
+}
+
+std::string verb_of(const std::vector<std::string>& recordings) { return recordings.size() == 1 ? "does" : "do"; }
+
+void tell_unused_starts(SearchState& state, const std::vector<std::string>& moving) {
+  state.d.warnings.push_back(
+      fmt::format("{} {} not begin at rest, it seems. The search that takes it into account was broken off: write "
+                  "\"initial\": \"per_recording\" there in the data set and begin with that",
+                  fmt::join(moving, ", "), verb_of(moving)));
+}
+
 void tell_starts(SearchState& state) {
   const auto& moving = state.d.found_starts;
   if (moving.empty()) return;
-  state.d.warnings.push_back(fmt::format(
-      "{} {} not begin at rest: where {} was found with everything else. Say so in the data set: "
-      "\"initial\": \"per_recording\"",
-      fmt::join(moving, ", "), moving.size() == 1 ? "does" : "do", moving.size() == 1 ? "it begins" : "they begin"));
+  state.d.warnings.push_back(
+      fmt::format("{} {} not begin at rest: where {} was found with everything else. Say so in the data set: "
+                  "\"initial\": \"per_recording\"",
+                  fmt::join(moving, ", "), verb_of(moving), moving.size() == 1 ? "it begins" : "they begin"));
 }
 
 /// An input that moves smoothly where more than noise is left by this model, which is fitted so.
@@ -320,23 +304,50 @@ void select(Search& search) {
   }
 }
 
+/// Beside all that was found, where more than noise is left: beside a part of it what is still missing would pass for a
+/// start.
+void look_at_starts(Search& search) {
+  const TableModel& best = search.selection->best();
+  if (search.smooth || best.model.placed.empty()) return;
+  search.state.unless_stopped([&] {
+    search.state.current = best.model;
+    search.state.settle(search.state.current);
+    if (search.state.current.error_of.over_floor() > rules::floor_gate)
+      search.moving = begin_in_motion_beside(search.selection->setting(), best);
+  });
+}
+
 /// The recordings with these facts, and what was found in them. How an input moves may show in what the user's model
 /// leaves, or behind a strong effect once that is known.
 std::unique_ptr<Search> search_with(const Asked& asked, const DataSet& data, const Discovery& facts) {
   auto search = std::make_unique<Search>(asked, data, facts);
   search->selection.emplace(search->state, numbers_not_exact(search->state));
   search->smooth = smooth_input_of(search->state, search->state.base, search->state.context);
-  if (!search->smooth) select(*search);
+  if (!search->smooth) {
+    select(*search);
+    look_at_starts(*search);
+  }
   return search;
+}
+
+/// In the order of the recordings.
+void add_starts(std::vector<std::string>& known, const std::vector<std::string>& more, const DataSet& data) {
+  const auto all = std::exchange(known, {});
+  for (const auto& r : data.recordings)
+    for (const auto* list : {&all, &more})
+      if (std::find(list->begin(), list->end(), r.name) != list->end()) known.push_back(r.name);
 }
 
 std::unique_ptr<Search> search_in(const Asked& asked, const DataSet& data) {
   Discovery facts;
   facts.found_starts = begin_in_motion(asked.diagram, data, asked.registry, asked.effects, asked.options);
   auto search = search_with(asked, data, facts);
-  while (search->smooth && !search->state.stopped()) {
-    search->state.progress("anew: " + search->smooth->input + " moves smoothly between its samples", 0);
-    facts.smooth_inputs.push_back(*search->smooth);
+  while (search->begins_anew() && !search->state.stopped()) {
+    search->state.progress(search->smooth ? "anew: " + search->smooth->input + " moves smoothly between its samples"
+                                          : fmt::format("anew: not at rest begin {}", fmt::join(search->moving, ", ")),
+                           0);
+    if (search->smooth) facts.smooth_inputs.push_back(*search->smooth);
+    add_starts(facts.found_starts, search->moving, data);
     auto again = search_with(asked, data, facts);
     const auto names = [](const Search& s) { return terms_of(s.selection->best().model).size(); };
     // Broken off before it had found again what was found without: that is still true.
@@ -344,30 +355,10 @@ std::unique_ptr<Search> search_in(const Asked& asked, const DataSet& data) {
     search = std::move(again);
   }
   if (search->smooth) tell_unused(search->state, *search->smooth);
+  if (!search->moving.empty()) tell_unused_starts(search->state, search->moving);
   search->state.d.broken_off = search->state.stopped() || search->selection->left_some_out();
   search->state.closing = true;  // what was found is told in full
   return search;
-}
-
-/// What was found in a part is claimed in all rows as well, and nothing more is left in these.
-bool holds(const SearchState& all, const Search& part, const Told& told) {
-  const Selection& selection = *part.selection;
-  if (!told.chain.back().ok) return false;
-  const FitSetting setting(all, told.kept);
-  std::vector<TableModel> models;
-  std::vector<LeftSums> left;
-  for (std::size_t k = 0; k < told.chain.size(); ++k) {
-    const Numbers numbers = told.kept.empty() ? Numbers::written : Numbers::let_go;
-    models.push_back(measured(setting, told.chain[k], numbers, *told.context.weights, selection.best().tried));
-    left.push_back(models.back().left);
-  }
-  const BlockScore score(*all.evidence, left);
-  for (auto& m : models)
-    if (m.rounded) m.levels = std::make_shared<const LevelsFound>(LevelsFound{*m.rounded, m.left});
-  for (std::size_t k = 0; k + 1 < models.size(); ++k)
-    if (score_of(score, models[k + 1]) < score_of(score, models[k]) + rules::by_score) return false;
-  const double left_in_part = selection.score().over_noise(selection.best().left_at_last());
-  return score.over_noise(models.back().left_at_last()) <= rules::near_noise * std::max(1.0, left_in_part);
 }
 
 std::string parts_of(const DataSet& part) {
@@ -391,6 +382,7 @@ void tell_ways_between(SearchState& state, Search& searched) {
 Discovery tell(std::unique_ptr<Search> searched, std::unique_ptr<Search> elsewhere, std::optional<Told> told) {
   SearchState& state = elsewhere ? elsewhere->state : searched->state;
   if (told) {
+    tell_fitted_to_all(state, *told);
     state.base = told->chain.front();
     state.current = told->chain.back();
     state.settle(state.current);
@@ -431,8 +423,8 @@ Discovery discover(const Diagram& diagram, const DataSet& data, const Registry& 
     auto all = std::make_unique<Search>(asked, data, searched->state.d);
     all->state.d.broken_off = searched->state.d.broken_off;
     all->state.closing = true;
-    Told told = to_be_told(all->state, *searched);
-    if (holds(all->state, *searched, told)) {
+    Told told = to_be_told(all->state, searched->state, *searched->selection);
+    if (holds(all->state, *searched->selection, told)) {
       all->state.d.warnings.push_back(
           fmt::format("Effects were searched for in the first {}: what was found is fitted to all rows and leaves no "
                       "more in them.",
@@ -446,7 +438,7 @@ Discovery discover(const Diagram& diagram, const DataSet& data, const Registry& 
   }
   const StopScope to_its_end(nullptr);  // whoever stops the search is told what it had found
   std::optional<Told> told;
-  if (searched->selection->best().ok()) told = to_be_told(searched->state, *searched);
+  if (searched->selection->best().ok()) told = to_be_told(searched->state, searched->state, *searched->selection);
   return tell(std::move(searched), nullptr, std::move(told));
 }
 

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <memory>
 
 #include "discover/models/fit_candidate_model.h"
 #include "discover/search/held_numbers.h"
+#include "fit/estimate/beginning.h"
 
 namespace hysteron {
 namespace {
@@ -27,38 +29,37 @@ std::vector<std::string> without_stated_start(const DataSet& data) {
   return names;
 }
 
-/// What this model says with these numbers from rest, but for the recordings named.
-Prediction from_rest(const SearchState& free, const DataSet& given, const TableModel& model,
-                     const std::vector<std::string>& moving) {
+DataSet with_starts(const DataSet& data, const std::vector<std::string>& moving) {
   Discovery some_move;
   some_move.found_starts = moving;
-  FitContext context = free.context;
-  context.data = std::make_shared<const DataSet>(as_found(given, some_move));
-  const auto program = compile(model.model.diagram, free.registry);
-  DataModel data_model = searched_model(context, program, Effort::full);
-  return data_model.predict({}, free.evidence->recordings());
+  return as_found(data, some_move);
 }
 
+/// What a model says with the same numbers from rest, but for the recordings named.
+using FromRest = std::function<Prediction(const std::vector<std::string>& moving)>;
+
 /// Of the recordings that may move, those that cannot rest (an integrator whose input is not zero), and those whose
-/// free start explains more than its states cost: by Schwarz's price in the recording's own witnesses.
-std::vector<std::string> worth_a_start(const SearchState& free, const DataSet& given, const TableModel& best) {
-  const DataModel& model = *free.base_model;
+/// free start explains more than its states cost: by Schwarz's price in the recording's own witnesses. `free`: with
+/// all of them, fitted by these weights.
+std::vector<std::string> worth_a_start(const Evidence& evidence, const std::vector<std::string>& may_move,
+                                       const TableModel& free, std::size_t states, const FromRest& from_rest) {
+  const DataModel& model = evidence.model();
   std::vector<std::string> moving;
-  Prediction rest = from_rest(free, given, best, moving);
+  Prediction rest = from_rest(moving);
   if (!rest.ok) {
-    for (const int r : free.evidence->recordings())
+    for (const int r : evidence.recordings())
       if (rest.y[static_cast<std::size_t>(r)].empty()) moving.push_back(model.recording(r).name);
-    rest = from_rest(free, given, best, moving);
+    rest = from_rest(moving);
   }
   if (!rest.ok) return {};
-  const BlockScore score(*free.evidence, {best.left});
-  const LeftSums left = left_sums(left_rows(*free.evidence, rest, best.weights));
-  const auto states = static_cast<double>(model.free_initial_states().size());
-  for (const int r : free.evidence->recordings()) {
+  const BlockScore score(evidence, {free.left});
+  const LeftSums left = left_sums(left_rows(evidence, rest, free.weights));
+  for (const int r : evidence.recordings()) {
     const std::string& name = model.recording(r).name;
-    if (std::find(moving.begin(), moving.end(), name) != moving.end()) continue;
-    const double gain = score.fit_of(best.left, r) - score.fit_of(left, r);
-    const double price = 0.5 * states * std::log(std::max(score.n_eff(r), 2.0));
+    const auto is_among = [&](const auto& names) { return std::find(names.begin(), names.end(), name) != names.end(); };
+    if (!is_among(may_move) || is_among(moving)) continue;
+    const double gain = score.fit_of(free.left, r) - score.fit_of(left, r);
+    const double price = 0.5 * static_cast<double>(states) * std::log(std::max(score.n_eff(r), 2.0));
     if (gain > price) moving.push_back(name);
   }
   return moving;
@@ -102,10 +103,35 @@ std::vector<std::string> begin_in_motion(const Diagram& diagram, const DataSet& 
   if (free.base_model->free_initial_states().empty()) return {};
   std::vector<std::string> moving;
   free.unless_stopped([&] {
-    constexpr int renewals = 4;  // a start that is missing stands out of any model of the rest
+    constexpr int renewals = 4;  // beside what is found it is looked at again
     const Nulls nulls = fit_nulls(FitSetting(free, numbers_not_exact(free)), renewals);
-    moving = worth_a_start(free, data, nulls.best());
+    moving =
+        worth_a_start(*free.evidence, may_move.found_starts, nulls.best(),
+                      free.base_model->free_initial_states().size(), [&](const std::vector<std::string>& these) {
+                        FitContext context = free.context;
+                        context.data = std::make_shared<const DataSet>(with_starts(data, these));
+                        const auto program = compile(nulls.best().model.diagram, registry);
+                        return searched_model(context, program, Effort::full).predict({}, free.evidence->recordings());
+                      });
   });
+  return moving;
+}
+
+std::vector<std::string> begin_in_motion_beside(const FitSetting& setting, const TableModel& found) {
+  const SearchState& state = setting.state;
+  const auto may_move = without_stated_start(*state.data);
+  if (may_move.empty()) return {};
+  const NoiseModel weights = weights_of(setting, found);
+  const FitContext fits = context_for(setting, state.context, weights, found.numbers);
+  const DataModel model = searched_model(fits, found.model.program, Effort::full);
+  Trial values;
+  for (const auto& v : found.model.of_recordings)
+    values.push_back({parameter_index(*found.model.program, v.path), v.value, v.recording});
+  std::vector<std::string> moving;
+  for (const auto& b : begin_elsewhere(model, weights, found.model.prediction, values, state.evidence->recordings()))
+    if (const auto& name = model.recording(b.recording).name;
+        std::find(may_move.begin(), may_move.end(), name) != may_move.end())
+      moving.push_back(name);
   return moving;
 }
 

@@ -26,6 +26,10 @@ Nulls fit_nulls(const FitSetting& setting, int renewals = most_renewals);
 std::vector<std::string> begin_in_motion(const Diagram& diagram, const DataSet& data, const Registry& registry,
                                          const Effects& effects, const DiscoverOptions& options);
 
+/// The same of those that are taken to begin at rest, beside what was found: a start may show only once what acts
+/// strongest is known. What the model lacks still is told from a start by where else it is (begin_elsewhere()).
+std::vector<std::string> begin_in_motion_beside(const FitSetting& setting, const TableModel& found);
+
 /// Numbers of the user's model that may be let go, as written [SI]; empty where they are exact.
 std::map<std::string, double> numbers_not_exact(const SearchState& state);
 

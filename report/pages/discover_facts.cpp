@@ -252,6 +252,7 @@ Facts discovery_facts(const Discovery& found, const std::string& diagram_file, c
                                {"noise", noise},
                                {"noise_guessed", found.noise_guessed},
                                {"simulations", found.model_runs}});
+  if (found.fitted_to_all) facts.set("fitted_to_all", true);
   if (!found.smooth_inputs.empty()) {
     Facts::List smooth;
     for (const auto& s : found.smooth_inputs)

@@ -170,9 +170,8 @@ void add_step_figure(Section& section, const Document& document, const Discovery
     const Beside view = stages.beside();
     figure.curves.push_back(residual_curve(table, residual_column(view, place.output, step), "before", "before"));
     figure.curves.push_back(residual_curve(table, residual_column(view, place.output, step + 1), "after", "after"));
-    figure.caption =
-        fmt::format("Of the recordings not used for the fit, the one that this step improved most: {} rms.",
-                    fall_text(place.rms_before, place.rms_after, unit));
+    figure.caption = fmt::format("Of {}, the one that this step improved most: {} rms.", judged_on(found),
+                                 fall_text(place.rms_before, place.rms_after, unit));
     section.figures.push_back(std::move(figure));
     return;
   }

@@ -176,7 +176,7 @@ Section errors_section(const Seen& seen) {
 Section residual_section(const Seen& seen, const std::string& title, const Comparison& comparison) {
   Section section;
   section.title = title;
-  section.text.emplace_back("On recordings that were not used for the fit.");
+  section.text.push_back(fmt::format("On {}.", judged_on(seen.found)));
   const Beside view{&seen.stages.model(), &comparison, nullptr, {}};
   add_residual_figures(section, view, seen.stages.unseen());
   add_split_figures(section, seen.stages.model(), comparison);
@@ -284,7 +284,7 @@ std::vector<Figure> answer_of(const Document& document, const Seen& seen) {
   auto fall =
       std::find_if(falls.begin(), falls.end(), [&](const Figure& f) { return f.title.starts_with(output + ":"); });
   if (fall == falls.end()) fall = falls.begin();
-  fall->title = output + ": error on unseen recordings";
+  fall->title = output + (seen.found.fitted_to_all ? ": error on recordings to judge" : ": error on unseen recordings");
   if (figures.size() > 2) figures.resize(2);  // over time
   figures.push_back(std::move(*fall));
   return figures;

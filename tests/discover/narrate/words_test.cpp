@@ -80,19 +80,19 @@ TEST(Words, WhatWouldTellTwoPlacesApartIsSaidWithTheFinding) {
   step.winner.place = "u";
   step.winner.summary = "time constant 2 ms";
   step.before = step.after = errors_of({error_of("y", "um", 0.03)});
-  EXPECT_EQ(step_sentence(step, lag).find("Lag of the amplifier at u: time constant 2 ms; "), 0u)
-      << step_sentence(step, lag);
-  EXPECT_EQ(step_sentence(step, lag).find("monitor"), std::string::npos) << "it is at one place alone";
+  EXPECT_EQ(step_sentence(step, lag, judged_on(Discovery())).find("Lag of the amplifier at u: time constant 2 ms; "), 0u)
+      << step_sentence(step, lag, judged_on(Discovery()));
+  EXPECT_EQ(step_sentence(step, lag, judged_on(Discovery())).find("monitor"), std::string::npos) << "it is at one place alone";
   step.ties.resize(1);
   step.ties[0].effect = "dead_time";
   step.ties[0].place = "u";
-  EXPECT_NE(step_sentence(step, lag).find("explained as well by dead_time at u"), std::string::npos)
-      << step_sentence(step, lag);
+  EXPECT_NE(step_sentence(step, lag, judged_on(Discovery())).find("explained as well by dead_time at u"), std::string::npos)
+      << step_sentence(step, lag, judged_on(Discovery()));
   step.winner.same_effects = {"sensor_lag"};
   step.winner.same_places = {"y"};
-  EXPECT_NE(step_sentence(step, lag).find("\"monitor\" tells: the drive measured behind the amplifier decides"),
+  EXPECT_NE(step_sentence(step, lag, judged_on(Discovery())).find("\"monitor\" tells: the drive measured behind the amplifier decides"),
             std::string::npos)
-      << step_sentence(step, lag);
+      << step_sentence(step, lag, judged_on(Discovery()));
 }
 
 TEST(Words, EachOutputIsToldInItsOwnUnit) {
@@ -137,7 +137,7 @@ TEST(Words, WhatIsReadOfASignalIsToldAsAReading) {
   step.winner = candidate("sensor_lag", "outputs.w");
   step.winner.summary = "time constant 2 ms";
   step.before = step.after = errors_of({error_of("w", "rad/s", 0.03)});
-  const std::string told = step_sentence(step, all_effects().get("sensor_lag"));
+  const std::string told = step_sentence(step, all_effects().get("sensor_lag"), judged_on(Discovery()));
   EXPECT_NE(told.find("at the reading of w: time constant 2 ms"), std::string::npos) << told;
 }
 

@@ -1,0 +1,106 @@
+#include "discover/selection/told.h"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "discover/models/fit_candidate_model.h"
+
+namespace hysteron {
+namespace {
+
+Numbers numbers_in(const Told& told) { return told.kept.empty() ? Numbers::written : Numbers::let_go; }
+
+/// The whole model, fitted by `told.context`, and what it is without its last terms. `base`: without all of them, where
+/// that cannot be fitted.
+void fit_chain(Told& told, const SearchState& state, CandidateModel whole, const CandidateModel& base,
+               bool must_be_fitted) {
+  CandidateModel final;
+  state.unless_stopped([&] { final = refit(told.context, whole, Effort::final); });
+  if (final.ok || must_be_fitted) whole = std::move(final);
+  told.terms = terms_of(whole);
+  told.chain.assign(told.terms.size() + 1, whole);
+  for (std::size_t k = told.terms.size(); k-- > 0 && whole.ok;) {
+    CandidateModel before = told.chain[k + 1];
+    // Terms before this one leave later: its own effects stand where they stand in the whole model, less those gone.
+    for (std::size_t i = before.placed.size(); i-- > 0 && before.ok;)
+      if (before.placed[i].effect == whole.placed[told.terms[k].front()].effect)
+        before = without(told.context, before, i);
+    told.chain[k] = before.ok ? refit(told.context, before, Effort::full) : before;
+    if (!told.chain[k].ok) told.chain[k] = k == 0 ? base : told.chain[k + 1];
+  }
+}
+
+/// What each model of the chain leaves in all recordings.
+std::vector<TableModel> measured_chain(const FitSetting& setting, const Told& told, const TableModel& best) {
+  std::vector<TableModel> models;
+  for (const auto& c : told.chain) {
+    models.push_back(measured(setting, c, numbers_in(told), *told.context.weights, best.tried));
+    TableModel& m = models.back();
+    if (m.rounded) m.levels = std::make_shared<const LevelsFound>(LevelsFound{*m.rounded, m.left});
+  }
+  return models;
+}
+
+/// Does each of them explain so much more than the one before it?
+bool each_explains_more(const BlockScore& score, const std::vector<TableModel>& chain, double more) {
+  for (std::size_t k = 0; k + 1 < chain.size(); ++k)
+    if (score_of(score, chain[k + 1]) < score_of(score, chain[k]) + more) return false;
+  return true;
+}
+
+/// Is what the recordings to fit to make of it true of those to judge, too? Numbers of their own would there be worth
+/// their price otherwise (Schwarz), or an error would rise. `best`: what was found in all of them.
+bool is_true_of_all(const FitSetting& setting, const SearchState& state, const BlockScore& score, const Told& told,
+                    const TableModel& best) {
+  if (!told.chain.back().ok) return false;
+  auto chain = measured_chain(setting, told, best);
+  if (chain.size() == 1 && !told.kept.empty())
+    chain.insert(chain.begin(), measured(setting, state.base, Numbers::written, *told.context.weights, {}));
+  const auto numbers = static_cast<int>(told.chain.back().fit.estimates.size());
+  return each_explains_more(score, chain, 0) &&
+         score_of(score, chain.back()) > score_of(score, best) - score.price(numbers);
+}
+
+}  // namespace
+
+Told to_be_told(SearchState& state, SearchState& searched, const Selection& selection) {
+  Told told;
+  const FitSetting& setting = selection.setting();
+  TableModel best = selection.best();
+  if (best.numbers == Numbers::let_go)
+    state.unless_stopped(
+        [&] { best = with_fewest_numbers(setting, searched.context, selection.score(), best, told.kept); });
+  const FitSetting few = setting.with(told.kept);
+  told.context = context_for(few, state.context, weights_of(few, best), numbers_in(told));
+  const auto all = std::exchange(told.context.data, state.data);  // others judge
+  const auto of_all = std::exchange(told.context.derivatives, std::make_shared<DerivativeStore>());
+  const bool elsewhere = &state != &searched;
+  CandidateModel whole = best.model;
+  if (elsewhere) whole.cuts.clear();  // rows of others
+  fit_chain(told, state, whole, state.base, elsewhere);
+  if (!elsewhere && !is_true_of_all(few, state, selection.score(), told, best)) {
+    Told with_all = told;
+    with_all.context.data = all;
+    with_all.fitted_to_all = true;
+    with_all.context.derivatives = std::make_shared<DerivativeStore>();
+    fit_chain(with_all, state, std::move(whole), state.base, false);
+    if (is_true_of_all(few, state, selection.score(), with_all, best)) std::swap(told, with_all);
+    of_all->count(with_all.context.derivatives->runs());
+  }
+  of_all->count(told.context.derivatives->runs());
+  return told;
+}
+
+bool holds(const SearchState& all, const Selection& part, const Told& told) {
+  if (!told.chain.back().ok) return false;
+  const auto chain = measured_chain(FitSetting(all, told.kept), told, part.best());
+  std::vector<LeftSums> left;
+  for (const auto& m : chain) left.push_back(m.left);
+  const BlockScore score(*all.evidence, left);
+  if (!each_explains_more(score, chain, rules::by_score)) return false;
+  const double left_in_part = part.score().over_noise(part.best().left_at_last());
+  return score.over_noise(chain.back().left_at_last()) <= rules::near_noise * std::max(1.0, left_in_part);
+}
+
+}  // namespace hysteron
