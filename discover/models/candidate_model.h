@@ -125,8 +125,7 @@ bool calibrates(const PlacedEffect& standing);
 /// zero that is free anyway is no law's.
 std::vector<std::string> free_anyway(const FitContext& context, const CandidateModel& candidate);
 
-/// What the candidate says of these recordings, which may be others (those of the test) or begin otherwise: values of
-/// single recordings are found on them.
+/// What the candidate says of other recordings, those of the test: values of single recordings are found on them.
 Prediction predicted(const FitContext& context, const CandidateModel& candidate, const std::vector<int>& recordings);
 /// The same of its train and validate recordings, with the lines of the mains silent and nothing fitted.
 Prediction without_lines(const FitContext& context, const CandidateModel& candidate);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <memory>
 
 #include "discover/models/fit_candidate_model.h"
@@ -29,37 +28,38 @@ std::vector<std::string> without_stated_start(const DataSet& data) {
   return names;
 }
 
-DataSet with_starts(const DataSet& data, const std::vector<std::string>& moving) {
+/// What this model says with these numbers from rest, but for the recordings named.
+Prediction from_rest(const SearchState& free, const DataSet& given, const TableModel& model,
+                     const std::vector<std::string>& moving) {
   Discovery some_move;
   some_move.found_starts = moving;
-  return as_found(data, some_move);
+  FitContext context = free.context;
+  context.data = std::make_shared<const DataSet>(as_found(given, some_move));
+  const auto program = compile(model.model.diagram, free.registry);
+  DataModel data_model = searched_model(context, program, Effort::full);
+  return data_model.predict({}, free.evidence->recordings());
 }
 
-/// What a model says with the same numbers from rest, but for the recordings named.
-using FromRest = std::function<Prediction(const std::vector<std::string>& moving)>;
-
 /// Of the recordings that may move, those that cannot rest (an integrator whose input is not zero), and those whose
-/// free start explains more than its states cost: by Schwarz's price in the recording's own witnesses. `free`: with
-/// all of them, fitted by these weights.
-std::vector<std::string> worth_a_start(const Evidence& evidence, const std::vector<std::string>& may_move,
-                                       const TableModel& free, std::size_t states, const FromRest& from_rest) {
-  const DataModel& model = evidence.model();
+/// free start explains more than its states cost: by Schwarz's price in the recording's own witnesses.
+std::vector<std::string> worth_a_start(const SearchState& free, const DataSet& given, const TableModel& best) {
+  const DataModel& model = *free.base_model;
   std::vector<std::string> moving;
-  Prediction rest = from_rest(moving);
+  Prediction rest = from_rest(free, given, best, moving);
   if (!rest.ok) {
-    for (const int r : evidence.recordings())
+    for (const int r : free.evidence->recordings())
       if (rest.y[static_cast<std::size_t>(r)].empty()) moving.push_back(model.recording(r).name);
-    rest = from_rest(moving);
+    rest = from_rest(free, given, best, moving);
   }
   if (!rest.ok) return {};
-  const BlockScore score(evidence, {free.left});
-  const LeftSums left = left_sums(left_rows(evidence, rest, free.weights));
-  for (const int r : evidence.recordings()) {
+  const BlockScore score(*free.evidence, {best.left});
+  const LeftSums left = left_sums(left_rows(*free.evidence, rest, best.weights));
+  const auto states = static_cast<double>(model.free_initial_states().size());
+  for (const int r : free.evidence->recordings()) {
     const std::string& name = model.recording(r).name;
-    const auto is_among = [&](const auto& names) { return std::find(names.begin(), names.end(), name) != names.end(); };
-    if (!is_among(may_move) || is_among(moving)) continue;
-    const double gain = score.fit_of(free.left, r) - score.fit_of(left, r);
-    const double price = 0.5 * static_cast<double>(states) * std::log(std::max(score.n_eff(r), 2.0));
+    if (std::find(moving.begin(), moving.end(), name) != moving.end()) continue;
+    const double gain = score.fit_of(best.left, r) - score.fit_of(left, r);
+    const double price = 0.5 * states * std::log(std::max(score.n_eff(r), 2.0));
     if (gain > price) moving.push_back(name);
   }
   return moving;
@@ -105,14 +105,7 @@ std::vector<std::string> begin_in_motion(const Diagram& diagram, const DataSet& 
   free.unless_stopped([&] {
     constexpr int renewals = 4;  // beside what is found it is looked at again
     const Nulls nulls = fit_nulls(FitSetting(free, numbers_not_exact(free)), renewals);
-    moving =
-        worth_a_start(*free.evidence, may_move.found_starts, nulls.best(),
-                      free.base_model->free_initial_states().size(), [&](const std::vector<std::string>& these) {
-                        FitContext context = free.context;
-                        context.data = std::make_shared<const DataSet>(with_starts(data, these));
-                        const auto program = compile(nulls.best().model.diagram, registry);
-                        return searched_model(context, program, Effort::full).predict({}, free.evidence->recordings());
-                      });
+    moving = worth_a_start(free, data, nulls.best());
   });
   return moving;
 }

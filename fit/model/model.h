@@ -138,7 +138,7 @@ class DataModel {
   const std::vector<double>& start_of(int recording) const;
   void begin_at(int recording, std::vector<double> start);
   /// How far from equilibrium each of the free initial states may be [SI], as one standard deviation; infinity:
-  /// anywhere. Empty: all anywhere.
+  /// anywhere. Empty: all anywhere. Where starts are searched a fit holds them to where they were last found so far.
   void hold_starts(std::vector<double> sigma);
   const std::vector<double>& start_sigma() const;
   /// What the user must be told (a state whose start cannot be estimated linearly ...).

@@ -90,7 +90,7 @@ struct DataModel::Content {
   std::vector<std::string> free_states, remarks;
   std::vector<std::size_t> free_state_index;
   std::vector<bool> free_state_is_linear;
-  std::vector<double> start_sigma;
+  std::vector<double> start_sigma;  // [SI], see DataModel::hold_starts()
   std::vector<double> spans;
   std::atomic<long> runs{0}, failures{0};
   std::atomic<int> main_input{-2};  ///< -2: not known yet

@@ -104,9 +104,9 @@ Dense chosen(const Dense& a, std::span<const double> sigma, bool held) {
 // least is b' (1 - U S^2/(1 + S^2) U') b, the square of b - U f U' b with f = 1 - 1/sqrt(1 + S^2) (ridge regression:
 // Hoerl and Kennard, Technometrics 12 (1970) 55).
 Dense held_basis(const Dense& a, std::span<const double> sigma, double tolerance) {
-  Dense basis = orthonormal_basis(chosen(a, sigma, false), tolerance);
   Dense held = chosen(a, sigma, true);
-  if (held.cols == 0) return basis;
+  if (held.cols == 0) return orthonormal_basis(a, tolerance);
+  Dense basis = orthonormal_basis(chosen(a, sigma, false), tolerance);
   for (std::size_t j = 0; j < held.cols; ++j) clear_of(basis, held.col(j));
   const Singular singular = singular_values(held);
   for (std::size_t k = 0; k < held.cols; ++k) {

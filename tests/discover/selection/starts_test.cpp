@@ -17,7 +17,6 @@ constexpr double noise_of_sensor = 1e-3;  // [m]
 class StartsTest : public Discoveries {
  protected:
   /// u -> a lag [s] -> y
-  static Diagram twenty_times_slower() { return slow(20); }
   static Diagram slow(double time_constant = 1) {
     Diagram d;
     d.title = "slow";
@@ -81,18 +80,19 @@ TEST_F(StartsTest, AtRestStayThereBesideAnEffect) {
 // no size at all describes any drift.
 TEST_F(StartsTest, OfEffectsAreNoDrift) {
   DataSet data = begun({0.1, -0.05, 0.08}, 0);
+  const double rates[] = {1e-4, -5e-5, 1.5e-4};  // [m/s]
   for (std::size_t r = 0; r < data.recordings.size(); ++r) {
     Recording& one = data.recordings[r];
     one.at_rest = false;
     one.initial_per_recording = one.start_is_stated = true;
-    const double rates[] = {2e-3, -1e-3, 3e-3};  // [m/s]
-    for (std::size_t k = 0; k < one.t.size(); ++k) one.columns["y"][k] += rates[r] * one.t[k];
+    for (std::size_t k = 0; k < one.t.size(); ++k) {
+      one.t[k] *= 20;  // a drift needs minutes
+      one.columns["y"][k] += rates[r] * one.t[k];
+    }
   }
   DiscoverOptions options;
   options.only = {"creep", "sensor_drift", "structural_resonance"};
-  for (auto& r : data.recordings)
-    for (auto& t : r.t) t *= 20;  // a drift needs minutes
-  const Discovery d = discover(twenty_times_slower(), data, registry, effects, options);
+  const Discovery d = discover(slow(20), data, registry, effects, options);
   ASSERT_EQ(d.steps.size(), 1U) << tried(d);
   EXPECT_EQ(winner(d), "sensor_drift") << tried(d);
   EXPECT_TRUE(d.steps[0].ties.empty()) << d.steps[0].ties.front().effect;

@@ -21,7 +21,7 @@ TEST(HeldColumns, LeaveWhatLeastSquaresWithARowForEachLeaves) {
     const std::size_t rows = 30, cols = 1 + static_cast<std::size_t>(trial) % 6;
     Dense a(rows, cols);
     for (auto& x : a.a) x = normal(random);
-    if (cols > 3)  // an outputs shows only a combination
+    if (cols > 3)  // the outputs show only a combination
       for (std::size_t i = 0; i < rows; ++i) a(i, 3) = a(i, 0) - 2 * a(i, 1);
     std::vector<double> b(rows), sigma(cols);
     for (auto& x : b) x = normal(random);
@@ -34,7 +34,7 @@ TEST(HeldColumns, LeaveWhatLeastSquaresWithARowForEachLeaves) {
       for (std::size_t i = 0; i < rows; ++i) left[i] -= a(i, j) * x[j];
       known += x[j] * x[j] / (sigma[j] * sigma[j]);
     }
-    // At the least of |b - a x|^2 + sum (x/sigma)^2 its derivative vanishes.
+    // At the least of |b - a x|^2 + sum (x/sigma)^2 its derivative vanishes: to rounding of numbers of some tens.
     for (std::size_t j = 0; j < cols; ++j)
       EXPECT_NEAR(dot(a.col(j), left.data(), rows), x[j] / (sigma[j] * sigma[j]), 1e-9) << trial << " " << j;
     std::vector<double> cleared = b;
