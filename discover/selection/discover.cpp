@@ -253,9 +253,9 @@ void tell_fitted_to_all(SearchState& state, const Told& told) {
     return fmt::format("{}", fmt::join(names, ", "));
   };
   state.d.warnings.push_back(fmt::format(
-      "{} alone do not say how large it is: its numbers were fitted to {} too, and no other recording judges "
-      "them. Record more that moves like these, and give one the role \"train\"",
-      of_role(Role::train), of_role(Role::validate)));
+      "the numbers of what was found were fitted to {0} too, for {1} (role \"train\") does not determine them, and no "
+      "other recording judges them. Record more that moves like {0}, and give it the role \"train\"",
+      of_role(Role::validate), of_role(Role::train)));
 }
 
 std::string verb_of(const std::vector<std::string>& recordings) { return recordings.size() == 1 ? "does" : "do"; }

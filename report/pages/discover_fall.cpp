@@ -106,7 +106,7 @@ Figure waterfall(const Discovery& found, const DataModel& model, int output, con
   const AxisUnit unit = axis_unit(output_unit(model, output), sizes);
   Figure figure;
   figure.kind = "waterfall";
-  figure.title = fmt::format("{}: error on recordings that were not fitted, step by step", name);
+  figure.title = fmt::format("{}: error on {}, step by step", name, judged_on(found));
   figure.y_label = unit.label();
   for (const auto& one : told) {
     const std::string size = unit.text(one.rms, 3);
