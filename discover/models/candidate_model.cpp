@@ -104,10 +104,7 @@ CandidateModel with_effect(const FitContext& context, const CandidateModel& befo
   const bool new_zero = effect.moves_zero && !at.offset_is_free;
   c.placed.push_back({&effect, law, place, c.change.name, new_zero ? at.zeros : std::vector<std::string>{}});
   if (law.reweighs) c.placed.back().weights = at.weights;
-  if (at.from_data && place.by.empty()) {
-    c.placed.back().range = at.range();
-    c.placed.back().side_range = at.side_highest - at.side_lowest;
-  }
+  c.placed.back().at = std::make_shared<const Excitation>(at);
   if (before.program)
     for (const auto* anew : {&c.placed.back().zeros, &c.placed.back().weights})
       for (const auto& path : *anew)

@@ -25,8 +25,7 @@ struct PlacedEffect {
   std::vector<std::string> zeros;          ///< the user's constants that are found anew with it (Effect::moves_zero)
   std::vector<std::string> weights{};      ///< weights of operators that are (Law::reweighs)
   std::map<std::string, double> before{};  ///< of these, what they were without the effect [SI]
-  /// [SI] what the signal spans on whose wire it stands, and the one that it reads besides; 0: nobody looked.
-  double range = 0, side_range = 0;
+  std::shared_ptr<const Excitation> at{};  ///< what was known of the place when it was put there
 };
 
 /// A value of one recording alone: the amplitude of a line whose phase is another one in each.

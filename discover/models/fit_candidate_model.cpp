@@ -355,11 +355,13 @@ bool any_recorded(const DataSet& data, const std::vector<std::string>& outputs) 
 /// has moved no further before than it moves in the recordings. Without that an effect of no size at all would describe
 /// any drift, by what it remembers of an endless past.
 double start_sigma_of(const PlacedEffect& s, const BlockInstance& block, std::size_t state) {
+  constexpr double free = std::numeric_limits<double>::infinity();
+  if (s.at == nullptr || !s.at->from_data || !s.place.by.empty()) return free;
   const Declaration& d = block.kernel->declaration;
   const auto& unit = d.states[std::min(state, d.states.size() - 1)].unit;  // one stands for all of a kind
   const auto follows = [&](std::size_t port) { return port < d.inputs.size() && d.inputs[port].unit == unit; };
-  const double range = follows(0) ? s.range : follows(1) ? s.side_range : 0;
-  return range > 0 ? range : std::numeric_limits<double>::infinity();
+  const double range = follows(0) ? s.at->range() : follows(1) ? s.at->side_highest - s.at->side_lowest : 0;
+  return range > 0 ? range : free;
 }
 
 /// Of each free initial state of the model; empty where nothing holds any.

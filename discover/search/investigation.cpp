@@ -11,10 +11,11 @@ std::string what_it_takes(const TriedEffect& tried, const std::string& on) {
                      percent(std::clamp(tried.share, 0.0, 1.0)), on, tried.fall_validate);
 }
 
-std::string why_implausible(const Effect& effect, const Law& law, const CandidateModel& fitted, const Excitation& at) {
-  if (!effect.implausible) return "";
-  const auto values = values_of(fitted, fitted.placed.size() - 1);
-  return !values.empty() && values.size() == law.free.size() ? effect.implausible(law, values, at) : "";
+std::string why_implausible(const CandidateModel& fitted, std::size_t standing) {
+  const PlacedEffect& s = fitted.placed[standing];
+  if (!s.effect->implausible || s.at == nullptr) return "";
+  const auto values = values_of(fitted, standing);
+  return !values.empty() && values.size() == s.law.free.size() ? s.effect->implausible(s.law, values, *s.at) : "";
 }
 
 bool look_alike(const Effect& a, const Effect& b) {

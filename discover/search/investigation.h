@@ -56,9 +56,8 @@ inline bool falls_in_both_roles(const ModelError& now, const ModelError& was) {
 /// Why it is claimed: what it takes away on the recordings to judge (judged_on()).
 std::string what_it_takes(const TriedEffect& tried, const std::string& judged_on);
 
-/// Why the effect that was fitted last, by this law, is not itself, though it may fit (Effect::implausible); "" = it
-/// is.
-std::string why_implausible(const Effect& effect, const Law& law, const CandidateModel& fitted, const Excitation& at);
+/// Why the effect that stands at this index is not itself, though it may fit (Effect::implausible); "" = it is.
+std::string why_implausible(const CandidateModel& fitted, std::size_t standing);
 
 /// True if `a` and `b` are effects that can be taken for each other (either names the other).
 bool look_alike(const Effect& a, const Effect& b);

@@ -77,8 +77,8 @@ bool is_plainer(const Effect& one, const Effect& other) {
   return lists(other.plainer) || (one.straight && lists(other.contains));
 }
 
-std::string why_not_itself(const TriedEffect& t, std::size_t law, const TableModel& fitted) {
-  return why_implausible(*t.effect, t.laws[law], fitted.model, t.excitation);
+std::string why_not_itself(const TableModel& fitted) {
+  return fitted.model.placed.empty() ? "" : why_implausible(fitted.model, fitted.model.placed.size() - 1);
 }
 
 }  // namespace hysteron

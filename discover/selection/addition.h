@@ -41,7 +41,7 @@ std::set<const Effect*> names_of(const CandidateModel& model);
 /// Does the one ask for less to be believed than the other, so that it goes first where it explains as much?
 bool is_plainer(const Effect& one, const Effect& other);
 
-/// Why the effect is not itself by this law, though it may fit (Effect::implausible); "" = it is.
-std::string why_not_itself(const TriedEffect& tried, std::size_t law, const TableModel& fitted);
+/// Why the effect that came last is not itself, though it may fit (Effect::implausible); "" = it is.
+std::string why_not_itself(const TableModel& fitted);
 
 }  // namespace hysteron

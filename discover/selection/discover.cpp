@@ -79,7 +79,7 @@ std::vector<Addition> tied(const SearchState& state, const Selection& selection,
     // What a law says with one number more it does not say by what it could be bent to.
     const bool has_spare = r.fitted.parameters > winner.parameters + 1;
     if ((has_spare || effect.straight) && is_the_winner_and_more(state, r.tried, effect)) continue;
-    if (!why_not_itself(r.tried, r.tried.law, r.fitted).empty()) continue;
+    if (!why_not_itself(r.fitted).empty()) continue;
     if (std::any_of(list.begin(), list.end(), [&](const Addition& a) { return a.tried.effect == r.tried.effect; }))
       continue;
     list.push_back(std::move(r));
@@ -191,7 +191,7 @@ std::vector<TriedLaw> laws_of(const Selection& selection, const Evidence& eviden
       if (!tried.taken)
         tried.reason =
             less > 0 ? fmt::format("its score is {:.1f} below that of {}", less, rival.tried.laws[rival.tried.law].name)
-                     : why_not_itself(rival.tried, law, f);
+                     : why_not_itself(f);
     } else {
       tried.reason = "could not be fitted: " + f.model.error;
     }
@@ -218,8 +218,10 @@ void tell_candidates(SearchState& state, const Search& searched, const Told& tol
         t.fall_train = fall.train;
         t.fall_validate = fall.validate;
         t.score = selection.score_of(r.fitted) - selection.score_of(before);
-        t.reason = why_not_itself(t, t.law, r.fitted);
+        t.reason = why_not_itself(r.fitted);
         if (t.reason.empty()) t.reason = how_much_more(selection, r.fitted, before);
+        if (const auto left = told.left.find({t.effect, t.place.where()}); left != told.left.end())
+          t.reason = "fitted to its end it is not itself: " + left->second;
       } else {
         t.reason = "could not be fitted: " + r.fitted.model.error;
       }

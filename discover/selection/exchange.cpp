@@ -18,22 +18,35 @@ std::size_t place_of(const std::vector<Law>& laws, const std::string& name) {
 
 }  // namespace
 
-/// A term that its model does not need: the rest, fitted from where it stands with the term, explains as much. Of a
-/// single term the rest is the user's own model from other numbers than it had been searched from.
+/// The best model without a term, fitted from where it stands with it. Of a single term that is the user's own model
+/// from other numbers than it had been searched from.
+TableModel Selection::rest_without(const std::vector<std::size_t>& term) {
+  TableModel rest = without_term(setting_, state_.context, best_, term);
+  if (rest.ok()) rest = refitted(setting_, state_.context, rest, best_.numbers);
+  if (!rest.ok()) return rest;
+  remember(rest);
+  measure();
+  if (rest.model.placed.empty() && score_of(rest) > score_of(nulls_.better(score())))
+    (rest.numbers == Numbers::let_go ? nulls_.let_go : nulls_.written) = rest;
+  return rest;
+}
+
+/// A term that its model does not need: the rest explains as much.
 bool Selection::leave_out() {
   for (const auto& term : terms_of(best_.model)) {
-    TableModel rest = without_term(setting_, state_.context, best_, term);
-    if (rest.ok()) rest = refitted(setting_, state_.context, rest, best_.numbers);
-    if (!rest.ok()) continue;
-    remember(rest);
-    measure();
-    if (rest.model.placed.empty() && score_of(rest) > score_of(nulls_.better(score())))
-      (rest.numbers == Numbers::let_go ? nulls_.let_go : nulls_.written) = rest;
-    if (score_of(rest) + rules::by_score < score_of(best_)) continue;
+    TableModel rest = rest_without(term);
+    if (!rest.ok() || score_of(rest) + rules::by_score < score_of(best_)) continue;
     best_ = std::move(rest);
     return true;
   }
   return false;
+}
+
+bool Selection::leave(const std::vector<std::size_t>& term) {
+  TableModel rest = rest_without(term);
+  if (!rest.ok()) return false;
+  best_ = rest.model.placed.empty() ? nulls_.better(score()) : std::move(rest);
+  return true;
 }
 
 void Selection::fit_on(const TableModel& rest, std::vector<Addition>& rivals) {

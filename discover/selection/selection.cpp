@@ -74,8 +74,8 @@ void Selection::count_in(const LeftSums& left) {
 /// What makes a law better that is then not the effect (a second mode that only shifts the phase) is not its gain.
 bool Selection::is_better(const Addition& rival, const FitOfRival& other) const {
   if (!rival.fitted.ok()) return true;
-  const bool before = why_not_itself(rival.tried, rival.tried.law, rival.fitted).empty();
-  const bool now = why_not_itself(rival.tried, other.law, other.fitted).empty();
+  const bool before = why_not_itself(rival.fitted).empty();
+  const bool now = why_not_itself(other.fitted).empty();
   return before == now ? score_of(rival.fitted) < score_of(other.fitted) : now;
 }
 
@@ -307,9 +307,7 @@ void Selection::fit_richer_laws(std::vector<Addition>& rivals) {
   sort(rivals);
 }
 
-bool Selection::is_itself(const Addition& rival) const {
-  return why_not_itself(rival.tried, rival.tried.law, rival.fitted).empty();
-}
+bool Selection::is_itself(const Addition& rival) const { return why_not_itself(rival.fitted).empty(); }
 
 /// Those that are quick first, the likeliest of them with the user's numbers; the slow ones where these leave more than
 /// noise; and what is left of the quick ones where that is more than noise still. Of the slow ones the first are fitted

@@ -49,11 +49,20 @@ bool each_explains_more(const BlockScore& score, const std::vector<TableModel>& 
   return true;
 }
 
+/// A term that with the numbers by which it is told is not itself; nullptr = each is.
+const std::vector<std::size_t>* not_itself(const Told& told) {
+  const CandidateModel& whole = told.chain.back();
+  for (const auto& term : told.terms)
+    for (const std::size_t i : term)
+      if (whole.ok && !why_implausible(whole, i).empty()) return &term;
+  return nullptr;
+}
+
 /// Is what the recordings to fit to make of it true of those to judge, too? Numbers of their own would there be worth
 /// their price otherwise (Schwarz), or an error would rise. `best`: what was found in all of them.
 bool is_true_of_all(const FitSetting& setting, const SearchState& state, const BlockScore& score, const Told& told,
                     const TableModel& best) {
-  if (!told.chain.back().ok) return false;
+  if (!told.chain.back().ok || not_itself(told) != nullptr) return false;
   auto chain = measured_chain(setting, told, best);
   if (chain.size() == 1 && !told.kept.empty())
     chain.insert(chain.begin(), measured(setting, state.base, Numbers::written, *told.context.weights, {}));
@@ -62,9 +71,8 @@ bool is_true_of_all(const FitSetting& setting, const SearchState& state, const B
          score_of(score, chain.back()) > score_of(score, best) - score.price(numbers);
 }
 
-}  // namespace
-
-Told to_be_told(SearchState& state, SearchState& searched, const Selection& selection) {
+/// See to_be_told(), whether its terms are themselves or not.
+Told with_these_terms(SearchState& state, SearchState& searched, const Selection& selection) {
   Told told;
   const FitSetting& setting = selection.setting();
   TableModel best = selection.best();
@@ -90,6 +98,23 @@ Told to_be_told(SearchState& state, SearchState& searched, const Selection& sele
   }
   of_all->count(told.context.derivatives->runs());
   return told;
+}
+
+}  // namespace
+
+Told to_be_told(SearchState& state, SearchState& searched, Selection& selection) {
+  std::map<std::pair<const Effect*, std::string>, std::string> left;
+  for (;;) {
+    Told told = with_these_terms(state, searched, selection);
+    const auto* term = not_itself(told);
+    if (term == nullptr || !selection.leave(*term)) {
+      told.left = std::move(left);
+      return told;
+    }
+    const CandidateModel& whole = told.chain.back();
+    for (const std::size_t i : *term)
+      left[{whole.placed[i].effect, whole.placed[i].place.where()}] = why_implausible(whole, i);
+  }
 }
 
 bool holds(const SearchState& all, const Selection& part, const Told& told) {

@@ -4,6 +4,7 @@
 
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "discover/selection/selection.h"
@@ -20,10 +21,13 @@ struct Told {
   /// Recordings to fit to do not say how large it is: with the numbers that they determine those to judge are explained
   /// worse than with others, or than without it. So all are fitted to.
   bool fitted_to_all = false;
+  /// Effects that had been found and left, by effect and place: why each was not itself with the numbers to be told.
+  std::map<std::pair<const Effect*, std::string>, std::string> left;
 };
 
-/// In the recordings of `state`, from what was found in those of `searched`, which may be the same.
-Told to_be_told(SearchState& state, SearchState& searched, const Selection& selection);
+/// In the recordings of `state`, from what was found in those of `searched`, which may be the same. What is not itself
+/// with these numbers (Effect::implausible) was so by chance while it was searched, and leaves the selection.
+Told to_be_told(SearchState& state, SearchState& searched, Selection& selection);
 
 /// What was found in a part of the rows is claimed in all of them, those of `all`, as well, and nothing more is left in
 /// these.
