@@ -19,7 +19,7 @@ double first_use(const Excitation& at) { return by_hours(at) ? 3600 : 100; }
 /// Decades of use between the recordings, those that only judge among them.
 double decades_of_use(const Excitation& at) {
   const double n0 = first_use(at);
-  return std::log10((1 + at.side_highest_of_all / n0) / (1 + std::max(at.side_lowest, 0.0) / n0));
+  return std::log10((1 + at.side_highest / n0) / (1 + std::max(at.side_lowest, 0.0) / n0));
 }
 
 Law logarithmic(const Excitation& at, bool free_first) {

@@ -29,8 +29,7 @@ Effect overflow() {
     Law law;
     law.name = "brim";
     law.block.type = "tank";
-    // A brim that only the recordings that judge rise to lies above all others.
-    const double most = std::max(at.travel_highest, at.travel_highest_of_all) - at.travel_lowest;
+    const double most = at.travel_highest - at.travel_lowest;
     const auto height = [&](double share) { return at.travel_lowest + share * std::max(most, 1e-30); };
     give(law.block, "brim", with_unit(height(0.9), parse_unit("m")));
     LawParameter brim;

@@ -32,7 +32,7 @@ Effect saturation() {
                          values[1]);
     const auto shown = [&](double si) { return fmt::format("{:.4g}", at.unit.from_si(si)); };
     const double rounding = 1e-6 * at.range();
-    const bool low = values[0] > at.lowest_of_all + rounding, high = values[1] < at.highest_of_all - rounding;
+    const bool low = values[0] > at.lowest + rounding, high = values[1] < at.highest - rounding;
     return low && high ? fmt::format("between {} and {} {}", shown(values[0]), shown(values[1]), at.unit.text)
            : low       ? fmt::format("below {} {}", shown(values[0]), at.unit.text)
                        : fmt::format("above {} {}", shown(values[1]), at.unit.text);
@@ -42,20 +42,20 @@ Effect saturation() {
     law.name = "hard limits";
     law.block.type = "saturation";
     const double range = at.range() > 0 ? at.range() : 1;
-    give(law.block, "lower", level(at.lowest_of_all, at.unit));
-    give(law.block, "upper", level(at.highest_of_all, at.unit));
+    give(law.block, "lower", level(at.lowest, at.unit));
+    give(law.block, "upper", level(at.highest, at.unit));
     // A limit at the end of the range of all recordings limits nothing: held at that bound it costs no parameter.
     LawParameter lower;
     lower.path = "lower";
-    lower.start = lower.lower = at.lowest_of_all;
+    lower.start = lower.lower = at.lowest;
     lower.upper = at.lowest + 0.49 * range;
     LawParameter upper;
     upper.path = "upper";
-    upper.start = upper.upper = at.highest_of_all;
+    upper.start = upper.upper = at.highest;
     upper.lower = at.lowest + 0.51 * range;
     // First of all none: what the fitted recordings do not reach is left to itself.
-    lower.scan = {at.lowest_of_all};
-    upper.scan = {at.highest_of_all};
+    lower.scan = {at.lowest};
+    upper.scan = {at.highest};
     for (const double share : {0.0, 0.03, 0.1, 0.2, 0.35}) {
       lower.scan.push_back(at.lowest + share * range);
       upper.scan.push_back(at.highest - share * range);

@@ -17,8 +17,7 @@ Law limit(const Excitation& at, bool each_way) {
   // Where the quickest way the one way is not limited, one rate for both that limits the other brings nothing.
   law.apart = each_way;
   // At the quickest motion of the drive in any recording it limits nothing: held at that bound it costs no parameter.
-  const double quickest = at.range() > 0 && at.quickest > 0 ? at.range() * at.quickest : 1;
-  const double none = std::max(quickest, at.range() * at.quickest_of_all);
+  const double none = at.range() > 0 && at.quickest > 0 ? at.range() * at.quickest : 1;
   give(law.block, "rate", per_second(none, at.unit));
   const auto rates = each_way ? std::vector<std::string>{"rise", "fall"} : std::vector<std::string>{"rate"};
   for (const auto& path : rates) {
@@ -26,16 +25,15 @@ Law limit(const Excitation& at, bool each_way) {
     LawParameter rate;
     rate.path = path;
     rate.start = none;
-    rate.lower = 1e-6 * quickest;
+    rate.lower = 1e-6 * none;
     rate.upper = none;
     rate.log_scale = true;
     // A step of one row is far quicker than a sine: the rates that limit the one and not the other lie decades apart.
     // Near the quickest motion a limit acts on the largest steps alone, and no slope leads there from below.
-    // First of all none: what the fitted recordings do not reach is left to itself.
     rate.scan = {none};
-    for (const double r : per_decade(1e-5 * quickest, 0.5 * quickest, 5)) rate.scan.push_back(r);
+    for (const double r : per_decade(1e-5 * none, 0.5 * none, 5)) rate.scan.push_back(r);
     for (const double share : {0.6, 0.7, 0.78, 0.84, 0.88, 0.91, 0.94, 0.96, 0.975, 0.985, 0.993})
-      rate.scan.push_back(share * quickest);
+      rate.scan.push_back(share * none);
     law.free.push_back(std::move(rate));
   }
   return law;

@@ -17,16 +17,16 @@ Excitation usual() {
   Excitation at;
   at.from_data = true;
   at.unit = parse_unit("V");
-  at.lowest = at.lowest_of_all = -5;
-  at.highest = at.highest_of_all = 10;
+  at.lowest = -5;
+  at.highest = 10;
   at.travel_highest = 1e-5;
   at.largest_jump = 1;
   at.longest_hold = 10;
-  at.quickest = at.quickest_of_all = 10;
+  at.quickest = 10;
   at.swings.sizes = 3;
   at.resolution = 1e-3;
   at.side_lowest = at.side_at_start = 2;
-  at.side_highest = at.side_highest_of_all = 10;
+  at.side_highest = 10;
   return at;
 }
 
@@ -40,9 +40,7 @@ const std::vector<Change>& changes() {
       {"the range of the signal",
        [](Excitation& at) {
          at.lowest *= 3;
-         at.lowest_of_all *= 3;
          at.highest *= 3;
-         at.highest_of_all *= 3;
          at.travel_highest *= 3;
        }},
       {"the time between rows",
@@ -53,18 +51,13 @@ const std::vector<Change>& changes() {
        }},
       {"the length of the recordings", [](Excitation& at) { at.longest_recording *= 3; }},
       {"the longest hold", [](Excitation& at) { at.longest_hold *= 3; }},
-      {"the pace of the signal",
-       [](Excitation& at) {
-         at.quickest *= 3;
-         at.quickest_of_all *= 3;
-       }},
+      {"the pace of the signal", [](Excitation& at) { at.quickest *= 3; }},
       {"the levels of the column", [](Excitation& at) { at.resolution *= 3; }},
       {"what it reads besides", [](Excitation& at) {
          at.side_lowest /= 2;
          at.side_at_start /= 2;
          at.side_highest *= 1e4;          // of a use, decades
          at.side_unit = parse_unit("h");  // or hours
-         at.side_highest_of_all *= 1e4;
        }}};
   return all;
 }

@@ -49,32 +49,28 @@ struct Resonance {
 };
 
 /// What is known of a place before an effect is tried there: the signal of the wire as the present model makes it, over
-/// the train recordings, and how finely and how long it was recorded. Numbers in SI.
+/// the recordings (but those kept for the end), and how finely and how long it was recorded. Numbers in SI.
 struct Excitation {
   bool from_data = false;  ///< false: nobody looked at data, the numbers below are placeholders
   Unit unit;               ///< of the wire, as it is written
   double lowest = 0, highest = 1;
-  /// Where no law holds it back, validation included: it is known from the inputs, not predicted.
-  double lowest_of_all = 0, highest_of_all = 1;
   std::string by;  ///< the type that would replace the block there; "" = an effect on a wire
   double travel_lowest = 0, travel_highest = 0;  ///< of the first output of that block
-  double travel_highest_of_all = 0;              ///< the same in the recordings that judge, too
   std::map<std::string, double> own{};           ///< numbers [SI] of that block by their names
   bool springless = false;                       ///< that block is a mass whose stiffness is 0, and not free
   /// The gain [SI] of the damping that makes a force or a torque of the speed on the wire; none = it stands before
   /// none.
   std::optional<double> damping{};
   double largest_jump = 0;             ///< largest change between two rows
-  double shortest_step = 1e-3;         ///< [s] between rows, smallest over the train recordings
+  double shortest_step = 1e-3;         ///< [s] between rows, smallest over the recordings
   double longest_step = 1e-3;          ///< [s]
-  double longest_recording = 100;      ///< [s] of any recording, validation included
+  double longest_recording = 100;      ///< [s] of any recording
   double longest_hold = 0;             ///< [s] at one level after a move of at least 5 % of the range
   double step_at_longest_hold = 1e-3;  ///< [s] between rows in that hold
   int reversals = 0;                   ///< turning points that come back by at least 2 % of the range
   Swings swings;
-  int recordings = 0;                  ///< train recordings
+  int recordings = 0;                  ///< how many
   double quickest = 0;                 ///< [1/s] largest change per second over the range
-  double quickest_of_all = 0;          ///< [1/s] the same, validation included
   bool starts_away_from_zero = false;  ///< the wire is not at zero at the start of some recording
   bool gain_is_free = false;           ///< a free gain in series behind the place makes a gain here undetermined
   bool offset_is_free = false;         ///< a free offset behind the place (or a free zero of each recording)
@@ -88,13 +84,12 @@ struct Excitation {
   double level = 0;       ///< one of these levels
   Unit side_unit;         ///< of the side signal, where the effect reads one
   double side_lowest = 0, side_highest = 1;
-  double side_highest_of_all = 1;  ///< validation included: it is known, not predicted
-  double side_at_start = 0;        ///< median over the train recordings of the side signal's first value
+  double side_at_start = 0;  ///< median over the recordings of the side signal's first value
   /// How often the drive of each recording comes again [Hz]; empty unless each is a sine or the like.
   std::vector<double> drive_cycles;
   /// Of the user's model, where effects stand in it already: what their laws leave rings there.
   std::vector<Resonance> own_resonances;
-  /// Correlation of the side signal with this wire over the train recordings, -1..1.
+  /// Correlation of the side signal with this wire, -1..1.
   double side_correlation = 0;
   double range() const { return highest - lowest; }
 };

@@ -78,7 +78,7 @@ std::string why_unseen(const EffectContent& c, const Excitation& at) {
   if (at.reversals < n.reversals)
     return fmt::format("the signal turns {} times, the effect needs {}", at.reversals, n.reversals);
   if (at.recordings < n.recordings)
-    return fmt::format("{} train recordings, the effect needs {}", at.recordings, n.recordings);
+    return fmt::format("{} recordings, the effect needs {}", at.recordings, n.recordings);
   const double little = 1e-3 * at.range();  // rounding of a drive that ends at zero is no sign
   if (n.changes_sign && (at.lowest > -little || at.highest < little)) return "the signal does not change its sign";
   return "";

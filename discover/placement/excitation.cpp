@@ -175,7 +175,7 @@ double roughness_at(const Program& program, const DataSet& data, int signal) {
   double least = 0;
   for (const auto& r : data.recordings) {
     const auto column = r.columns.find(output);
-    if (r.role != Role::train || column == r.columns.end() || r.last < 2) continue;
+    if (r.role == Role::test || column == r.columns.end() || r.last < 2) continue;
     const double noise = roughness(std::span(column->second).first(r.last));
     least = least > 0 ? std::min(least, noise) : noise;
   }
@@ -218,7 +218,6 @@ void look_at_row_times(const DataSet& data, Excitation& c) {
     if (r.role == Role::test || r.last < 2) continue;
     const double duration = r.t[r.last - 1] - r.t.front();
     c.longest_recording = std::max(c.longest_recording, duration);
-    if (r.role != Role::train) continue;
     const double step = median_step(r.t);
     c.shortest_step = std::min(c.shortest_step, step);
     c.longest_step = std::max(c.longest_step, step);
@@ -236,7 +235,7 @@ class Observer {
       if (r.role == Role::test || r.last < 2) continue;
       Seen seen{&r, traces(program_, data, r, signals_)};
       for (auto& s : seen.rows) s.resize(r.last);
-      (r.role == Role::train ? trains_ : others_).push_back(std::move(seen));
+      recordings_.push_back(std::move(seen));
     }
   }
 
@@ -260,15 +259,9 @@ class Observer {
                      std::find(free_paths.begin(), free_paths.end(), stiffness) == free_paths.end();
       if (!c.by.empty()) c.own = numbers_of(*program_, places_[i].at);
       range_of(i, c.lowest, c.highest);
-      c.lowest_of_all = c.lowest;
-      c.highest_of_all = c.highest;
-      for (const auto& seen : others_) widen(seen.rows[i], c.lowest_of_all, c.highest_of_all);
       if (travel_signal_[i] >= 0) {
         const auto travel = static_cast<std::size_t>(travel_signal_[i]);
         range_of(travel, c.travel_lowest, c.travel_highest);
-        double lowest = c.travel_lowest;
-        c.travel_highest_of_all = c.travel_highest;
-        for (const auto& seen : others_) widen(seen.rows[travel], lowest, c.travel_highest_of_all);
       }
       look_at_moves(i, c);
       if (!places_[i].side.empty()) look_at_side(i, c);
@@ -327,21 +320,20 @@ class Observer {
   /// Of each recording, empty where the inputs of one move otherwise.
   std::vector<double> drive_cycles() const {
     std::vector<double> list;
-    for (const auto* some : {&trains_, &others_})
-      for (const auto& seen : *some)
-        for (std::size_t s = drives_; s < signals_.size(); ++s) {
-          const auto [low, high] = std::minmax_element(seen.rows[s].begin(), seen.rows[s].end());
-          if (!(*high > *low)) continue;
-          list.push_back(cycle_frequency(std::span(seen.recording->t).first(seen.recording->last), seen.rows[s]));
-          if (!(list.back() > 0)) return {};
-        }
+    for (const auto& seen : recordings_)
+      for (std::size_t s = drives_; s < signals_.size(); ++s) {
+        const auto [low, high] = std::minmax_element(seen.rows[s].begin(), seen.rows[s].end());
+        if (!(*high > *low)) continue;
+        list.push_back(cycle_frequency(std::span(seen.recording->t).first(seen.recording->last), seen.rows[s]));
+        if (!(list.back() > 0)) return {};
+      }
     return list;
   }
 
   void range_of(std::size_t signal, double& low, double& high) const {
     low = std::numeric_limits<double>::infinity();
     high = -low;
-    for (const auto& seen : trains_) widen(seen.rows[signal], low, high);
+    for (const auto& seen : recordings_) widen(seen.rows[signal], low, high);
   }
 
   static void widen(const std::vector<double>& rows, double& low, double& high) {
@@ -362,7 +354,7 @@ class Observer {
 
   void look_at_moves(std::size_t place, Excitation& c) const {
     std::vector<Swing> swings;
-    for (const auto& seen : trains_) {
+    for (const auto& seen : recordings_) {
       const auto& v = seen.rows[place];
       const auto here = swings_of(seen.recording->t, v, 0.05 * c.range());
       swings.insert(swings.end(), here.begin(), here.end());
@@ -372,8 +364,6 @@ class Observer {
       c.quickest = std::max(c.quickest, quickest(seen, place, c.range()));
     }
     if (c.range() > 0) c.swings = told(swings, c.range());
-    c.quickest_of_all = c.quickest;
-    for (const auto& seen : others_) c.quickest_of_all = std::max(c.quickest_of_all, quickest(seen, place, c.range()));
   }
 
   /// A side signal is a wire of the diagram, or a column that the diagram does not read yet.
@@ -389,7 +379,7 @@ class Observer {
     if (const int row = side_signal_[place]; row >= 0)
       c.side_unit = program_->signals[static_cast<std::size_t>(signals_[static_cast<std::size_t>(row)])].unit;
     std::vector<double> side, wire, first;
-    for (const auto& seen : trains_) {
+    for (const auto& seen : recordings_) {
       const auto column = side_of(seen, place);
       if (column.empty()) continue;
       side.insert(side.end(), column.begin(), column.end());
@@ -399,11 +389,9 @@ class Observer {
     if (side.empty()) return;
     const auto [low, high] = std::minmax_element(side.begin(), side.end());
     c.side_lowest = *low;
-    c.side_highest = c.side_highest_of_all = *high;
+    c.side_highest = *high;
     c.side_at_start = median(first);
     c.side_correlation = correlation(side, wire);
-    for (const auto& seen : others_)
-      for (const double v : side_of(seen, place)) c.side_highest_of_all = std::max(c.side_highest_of_all, v);
   }
 
   /// Holds are those of the drive: the signal behind a slow plant never stands still.
@@ -411,7 +399,7 @@ class Observer {
     for (std::size_t s = drives_; s < signals_.size(); ++s) {
       double low = 0, high = 0;
       range_of(s, low, high);
-      for (const auto& seen : trains_) {
+      for (const auto& seen : recordings_) {
         if (high <= low) break;
         const std::span t = std::span(seen.recording->t).first(seen.recording->last);
         const double hold = longest_hold(t, seen.rows[s], high - low).length;
@@ -435,7 +423,7 @@ class Observer {
   std::vector<int> signals_;
   std::vector<int> side_signal_, travel_signal_;  // per place: a row among `signals_`, -1 = none
   std::size_t drives_ = 0;                        // first of the inputs among `signals_`
-  std::vector<Seen> trains_, others_;
+  std::vector<Seen> recordings_;                  // but those kept for the end
 };
 
 }  // namespace
