@@ -10,9 +10,9 @@
 namespace hysteron::effects {
 namespace {
 
-constexpr double away = 0.2;           // [Hz] that the mains is off at most, mostly ...
-constexpr double shortest = 0.2;       // [s] ten periods
-constexpr double simd_dispatch = 0.5;  // [Hz] ... and for 99.5 % of a year (EN 50160: 1 %)
+constexpr double away = 0.2;            // [Hz] that the mains is off at most, mostly ...
+constexpr double shortest = 0.2;        // [s] ten periods
+constexpr double grid_tolerance = 0.5;  // [Hz] ... and for 99.5 % of a year (EN 50160: 1 %)
 
 Law lines(const Excitation& at, int harmonics) {
   Law law;
@@ -25,12 +25,12 @@ Law lines(const Excitation& at, int harmonics) {
   LawParameter f;
   f.path = "frequency";
   f.start = 50;
-  f.lower = 50 - simd_dispatch;
-  f.upper = 60 + simd_dispatch;
+  f.lower = 50 - grid_tolerance;
+  f.upper = 60 + grid_tolerance;
   // A recording of length T tells frequencies 1/T apart; of longer ones the local search takes care.
   const double step = std::clamp(0.5 / at.longest_recording, 2 * away / 100, 2 * away / 8);
   for (const double mains : {50.0, 60.0}) {
-    f.line_bands.emplace_back(mains - simd_dispatch, mains + simd_dispatch);
+    f.line_bands.emplace_back(mains - grid_tolerance, mains + grid_tolerance);
     for (double d = -away; d <= away * 1.001; d += step) f.scan.push_back(mains + d);
   }
   law.free = {f};
@@ -68,8 +68,8 @@ Effect mains_interference() {
                        size_text(std::hypot(values[1], values[2]), at.unit));
   };
   e.implausible = [](const Law&, const std::vector<double>& values, const Excitation&) -> std::string {
-    if (std::abs(values[0] - 50) <= simd_dispatch || std::abs(values[0] - 60) <= simd_dispatch) return "";
-    return fmt::format("no mains runs at {:.4g} Hz: it keeps within {} Hz of 50 or 60", values[0], simd_dispatch);
+    if (std::abs(values[0] - 50) <= grid_tolerance || std::abs(values[0] - 60) <= grid_tolerance) return "";
+    return fmt::format("no mains runs at {:.4g} Hz: it keeps within {} Hz of 50 or 60", values[0], grid_tolerance);
   };
   e.laws = [](const Excitation& at) { return std::vector<Law>{lines(at, 1), lines(at, 3)}; };
   e.unseen = [](const Excitation& at) -> std::string {

@@ -68,15 +68,15 @@ struct Bounds {
 
 /// The widest that any element has in any law.
 std::optional<Bounds> bounds_of(const Effect& effect, const std::string& name, const Excitation& at) {
-  std::optional<Bounds> simd_dispatch;
+  std::optional<Bounds> widest;
   for (const auto& law : effect.laws(at))
     for (const auto& p : law.free) {
       if (p.path.substr(0, p.path.find('[')) != name.substr(0, name.find('['))) continue;
-      if (!simd_dispatch) simd_dispatch = Bounds{p.lower, p.upper};
-      simd_dispatch->lower = std::min(simd_dispatch->lower, p.lower);
-      simd_dispatch->upper = std::max(simd_dispatch->upper, p.upper);
+      if (!widest) widest = Bounds{p.lower, p.upper};
+      widest->lower = std::min(widest->lower, p.lower);
+      widest->upper = std::max(widest->upper, p.upper);
     }
-  return simd_dispatch;
+  return widest;
 }
 
 }  // namespace
