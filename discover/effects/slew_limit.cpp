@@ -45,7 +45,9 @@ Effect slew_limit() {
   Effect e;
   e.id = e.family = "slew_limit";
   e.title = "Limited rate of the drive";
-  e.cause = "The amplifier's largest current into the capacitance of the actuator: |dv/dt| <= I/C.";
+  e.cause =
+      "The amplifier's largest current into the capacitance of the actuator: |dv/dt| <= I/C; the motor of a valve; a ramp in a "
+      "drive.";
   e.equation = "dv/dt = max(-fall, min(rise, (u - v)/time)), time = 1 ns";
   e.source =
       "Fleming, Moheimani, IEEE Trans. Control Syst. Technol. 13 (2005) 33 (current of a capacitive load); PI E-617 "
@@ -56,7 +58,7 @@ Effect slew_limit() {
   e.block_type = "slew_limit";
   e.places = {"command"};
   e.parameters = {{"rate", "unit of the signal per s", "largest rate both ways",
-                   "60 mA into 2.6 uF: 23 V/ms; the range within 10 s"},
+                   "60 mA into 2.6 uF: 23 V/ms; the motor of a valve: the range in a minute"},
                   {"rise, fall", "unit of the signal per s", "largest rate of each way", "of one size"}};
   e.look_alikes = {
       {"amplifier_lag", "sine_amplitudes", "at half the amplitude the error of a limit goes, a lag's halves"},
@@ -69,10 +71,11 @@ Effect slew_limit() {
     return text;
   };
   e.implausible = [](const Law&, const std::vector<double>& values, const Excitation& at) -> std::string {
-    // The weakest piezo amplifiers (2 mA) take a second to charge the largest stacks (20 uF) to 100 V.
+    // Motors of large valves take minutes from end to end; what no recording sees arrive is not limited but sums up.
     const double whole = at.range() / *std::min_element(values.begin(), values.end());
-    if (whole <= 10) return "";
-    return fmt::format("the range of the drive would take {}: no current limit is so slow", time_text(whole));
+    if (!at.from_data || whole <= at.longest_recording) return "";
+    return fmt::format("the range of the drive would take {}, longer than the longest recording, {}: that is no limit",
+                       time_text(whole), time_text(at.longest_recording));
   };
   e.laws = [](const Excitation& at) { return std::vector<Law>{limit(at, false), limit(at, true)}; };
   e.unseen = stands_still;

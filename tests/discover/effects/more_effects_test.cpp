@@ -295,11 +295,12 @@ TEST_F(MoreEffects, AClampIsNamedWithItsLevel) {
   EXPECT_NEAR(d.steps.front().winner.found.at(1).estimate.used, 0.83, 2e-3);  // twice the noise of a row
 }
 
-/// y = u behind an amplifier that moves by `up` and `down` a second at most, by small steps.
-DataSet slewing(double up, double down, double to_judge = 1) {
+/// y = u behind an amplifier that moves by `up` and `down` a second at most, by small steps; all of it `slower`.
+DataSet slewing(double up, double down, double to_judge = 1, double slower = 1) {
   std::vector<Recording> list;
   std::uint64_t seed = 1300;
   for (auto& m : drives()) {
+    for (double& t : m.t) t *= slower;
     if (m.role == Role::validate)
       for (double& u : m.u) u *= to_judge;
     auto y = noise(m.t.size(), 1e-3, 1e-4, seed);
@@ -307,7 +308,7 @@ DataSet slewing(double up, double down, double to_judge = 1) {
     for (std::size_t k = 0; k < m.t.size(); ++k) {
       for (int i = 0; k > 0 && i < 200; ++i) {
         const double h = (m.t[k] - m.t[k - 1]) / 200, u = m.u[k - 1] + (m.u[k] - m.u[k - 1]) * (i + 1) / 200;
-        v += std::clamp(u - v, -down * h, up * h);
+        v += std::clamp(u - v, -down * h / slower, up * h / slower);
       }
       y[k] += v;
     }
@@ -323,6 +324,13 @@ TEST_F(MoreEffects, ALimitedRateIsNamedWithItsRate) {
   // V/s: some hundred limited rows tell a ramp of a volt to 1 mm/sqrt(100) each.
   EXPECT_NEAR(d.steps.front().winner.found.at(0).estimate.used, 0.6, 0.006);
   EXPECT_NEAR(d.final_error.rms_validate, 1e-3, 1e-4);
+}
+
+TEST_F(MoreEffects, TheMotorOfAValveTakesMinutes) {
+  const Discovery d = diagnosed(plain_gain(), slewing(0.6, 0.6, 1, 200));  // 2 V and more in 11 minutes
+  ASSERT_EQ(d.steps.size(), 1u) << tried(d);
+  EXPECT_EQ(d.steps.front().winner.effect, "slew_limit") << tried(d);
+  EXPECT_NEAR(d.steps.front().winner.found.at(0).estimate.used, 0.6 / 200, 0.006 / 200);  // see above
 }
 
 TEST_F(MoreEffects, ALimitedRateThatIsAnotherDownwardsTakesTheRicherLaw) {
