@@ -132,11 +132,13 @@ def before_plant(u, e, z, h, ring, place, kelvin, other, event):
     if e[GAP] > 0:
         z[Z_PLAY] = min(max(z[Z_PLAY], v - e[GAP] / 2), v + e[GAP] / 2)
         v = z[Z_PLAY]
-    if e[LOOP] != 0:  # Bouc-Wen about the rest, in shares of half the range (Wen, J. Eng. Mech. Div. 102 (1976) 249)
+    # Bouc-Wen about the rest, in shares of half the range (Wen, J. Eng. Mech. Div. 102 (1976) 249). What it holds is held
+    # back: a response ahead of its drive would give energy in every cycle.
+    if e[LOOP] != 0:
         d = (v - z[Z_LAST]) / e[HALF]
         z[Z_LAST] = v
         z[Z_LOOP] += 3.0 * d - 2.0 * abs(d) * z[Z_LOOP] - 0.6 * d * abs(z[Z_LOOP])
-        v += e[LOOP] * e[HALF] * z[Z_LOOP]
+        v -= e[LOOP] * e[HALF] * z[Z_LOOP]
     if e[CURVE] != 0:  # exponential, as of an equal-percentage valve or a diode; slope 1 in the middle
         v = e[MIDDLE] + e[HALF] * (np.exp(e[CURVE] * (v - e[MIDDLE]) / e[HALF]) - 1) / e[CURVE]
     if e[CREEP] != 0:  # gamma per decade as relaxations, two of them each decade
