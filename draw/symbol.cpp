@@ -67,6 +67,7 @@ const Look* find_look(const std::string& type) {
       {"sampled_jiles_atherton_inverse", {"hysteresis_inverse", true}},
       {"mass_spring_damper", {"mass", true}},
       {"mass_on_stiffening_spring", {"mass", true}},
+      {"duffing", {"mass", true}},
       {"mass_with_friction", {"mass", true}},
       {"mass_with_stops", {"mass", true}},
       {"mass_with_cogging", {"mass", true}},

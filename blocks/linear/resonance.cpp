@@ -11,6 +11,7 @@ void Resonance::describe(BlockSpec<Resonance>& spec) {
   spec.remark(
       "A stage of mass m on stiffness k has the frequency sqrt(k/m)/(2 pi); a load M lowers it by the "
       "factor sqrt(m/(m + M)).");
+  spec.variation("stiffening", "duffing", {{"stiffening", "0"}});
   spec.input(&In<double>::u, "u", "$a", "the motion that drives the stage");
   spec.state(&State<double>::y, "y", "$a", "motion of the stage");
   spec.state(&State<double>::v, "v", "$a", "velocity of the stage over w");

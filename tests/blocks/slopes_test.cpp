@@ -109,6 +109,7 @@ TEST_P(SlopesOfEverySample, CarriesTheExactSlopesOfItsFunctions) {
                                     "mass_with_friction",
                                     "mass_with_stops",
                                     "mass_on_stiffening_spring",
+                                    "duffing",
                                     "mass_spring_damper",
                                     "discrete_transfer_function",
                                     "backlash",

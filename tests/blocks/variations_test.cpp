@@ -67,6 +67,7 @@ const std::map<std::string, Example>& examples() {
       slip{"slip_distance", list({10, 40}, "mm")};
   static const std::map<std::string, Example> all{
       {"gain", {"V", {{"gain", "-1.7 um/V"}}}},
+      {"resonance", {"V", {{"frequency", "2 Hz"}, {"damping", 0.1}}}},
       {"mass_spring_damper", mass_with({})},
       {"mass_on_stiffening_spring", mass_with({{"stiffening", "700 N/m^3"}, {"quadratic", "30 N/m^2"}})},
       {"mass_with_drag", mass_with({{"drag", "0.6 N s^2/m^2"}})},
@@ -229,6 +230,7 @@ TEST_P(Variations, WithOtherValuesGiveOtherTraces) {
       {"torque cogging", {{"cosine", "0.1 N m"}, {"sine", "0.2 N m"}, {"periods", 7.0}}},
       {"torque drag", {{"drag", "3 N m s^2/rad^2"}}},
       {"torque stiffening", {{"stiffening", "1e5 N m/rad^3"}}},
+      {"u stiffening", {{"stiffening", "0.3 1/V^2"}}},
       {"torque friction", {{"coulomb", "0.5 N m"}, {"breakaway", "1 N m"}}},
       {"torque presliding", {{"contact_stiffness", "30 N m/rad"}, {"slip_distance", "0.02 rad"}}}};
   const std::string& hypothesis = GetParam().variation.name;

@@ -22,6 +22,10 @@ Wire Generator::integrator(const Wire& u) {
 Wire Generator::resonance(const Wire& u) {
   Json block = {{"type", "resonance"}, {"frequency", with_unit(random.spread(1, 20), "Hz")}};
   block["damping"] = random.spread(0.05, 1);
+  if (random.chance(0.3)) {
+    block["type"] = "duffing";
+    block["stiffening"] = random.between(0, 0.5) / (u.size * u.size);
+  }
   return add(block, {u}, 1.5 * u.size, true);
 }
 

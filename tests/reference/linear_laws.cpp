@@ -67,6 +67,30 @@ class Resonance : public Law {
   double w, d;
 };
 
+/// Duffing's: the spring y + quadratic y^2 + stiffening y^3 + quintic y^5.
+class Duffing : public Law {
+ public:
+  explicit Duffing(const Block& b)
+      : w(2 * pi * b.number("frequency")),
+        d(b.number("damping")),
+        square(b.number("quadratic", 0)),
+        cubic(b.number("stiffening", 0)),
+        fifth(b.number("quintic", 0)) {}
+  int states() const override { return 2; }
+  bool direct() const override { return false; }
+  void output(const Point& p, double* y) const override { *y = p.x[x]; }
+  void rates(const Point& p, double* dx) const override {
+    const double y = p.x[x];
+    const double spring = y + square * std::pow(y, 2) + cubic * std::pow(y, 3) + fifth * std::pow(y, 5);
+    dx[x] = p.x[x + 1];
+    dx[x + 1] = w * w * (u(p) - spring) - 2 * d * w * p.x[x + 1];
+  }
+  double fastest() const override { return 0.3 / w / std::max(1.0, 2 * d); }
+
+ private:
+  double w, d, square, cubic, fifth;
+};
+
 /// y = u + sum positions (q - u) + velocities q'/w.
 class Modes : public Law {
  public:
@@ -337,6 +361,7 @@ LawPointer make_linear(const Block& b) {
   if (b.type == "integrator") return std::make_unique<Integrator>(b);
   if (b.type == "pi_controller") return std::make_unique<PiController>(b);
   if (b.type == "resonance") return std::make_unique<Resonance>(b);
+  if (b.type == "duffing") return std::make_unique<Duffing>(b);
   if (b.type == "modes") return std::make_unique<Modes>(b);
   if (b.type == "creep") return std::make_unique<Creep>(b);
   if (b.type == "transfer_function") return std::make_unique<TransferFunction>(b);

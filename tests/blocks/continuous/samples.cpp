@@ -8,6 +8,8 @@ const Samples continuous{
     {"ageing", {{"per_decade", {0.03}}, {"first", {50}}, {"swing", {0.3}}}},
     {"load_dependence", {{"compliance", {0.2}}, {"softening", {0.1}}}},
     {"resonance", {{"frequency", {0.8}}, {"damping", {0.2}}}},
+    {"duffing",
+     {{"frequency", {0.8}}, {"damping", {0.2}}, {"stiffening", {0.6}}, {"quadratic", {0.2}}, {"quintic", {0.1}}}},
     {"modes",
      {{"frequencies", {0.8, 1.3}}, {"dampings", {0.2, 0.1}}, {"positions", {0.4, 0.1}}, {"velocities", {-0.3, 0.2}}}},
     {"integrator", {{"initial", {0.6}}}},
