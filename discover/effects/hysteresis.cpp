@@ -373,10 +373,15 @@ Effect hysteresis() {
   e.laws = [](const Excitation& at) {
     if (!at.by.empty())
       return std::vector<Law>{slip_elements(at), uneven_plays_in_the_spring(at), bouc_wen_in_the_spring(at)};
-    std::vector<Law> laws{plays(at, "6 one-sided plays", 6, 0.04, 0.65, "one", 1.0),
-                          plays(at, "18 one-sided plays", 18, 0.03, 0.90, "one", 1.0),
-                          plays(at, "18 two-sided plays", 18, 0.015, 0.45, "two", 1.0)};
-    if (is_unipolar(at)) laws.push_back(plays_of_a_bent_drive(at));
+    const Law one_sided = plays(at, "18 one-sided plays", 18, 0.03, 0.90, "one", 1.0);
+    const Law two_sided = plays(at, "18 two-sided plays", 18, 0.015, 0.45, "two", 1.0);
+    // From rest at zero what is driven to one side slips that way only, what is driven about zero either way.
+    std::vector<Law> laws;
+    if (is_unipolar(at))
+      laws = {plays(at, "6 one-sided plays", 6, 0.04, 0.65, "one", 1.0), one_sided, two_sided,
+              plays_of_a_bent_drive(at)};
+    else
+      laws = {plays(at, "6 two-sided plays", 6, 0.02, 0.325, "two", 1.0), two_sided, one_sided};
     if (at.range() > 0)
       for (const int cells : {6, 10}) laws.push_back(relays(at, cells));
     return laws;

@@ -46,8 +46,8 @@ Effect slew_limit() {
   e.id = e.family = "slew_limit";
   e.title = "Limited rate of the drive";
   e.cause =
-      "The amplifier's largest current into the capacitance of the actuator: |dv/dt| <= I/C; the motor of a valve; a ramp in a "
-      "drive.";
+      "The amplifier's largest current into the capacitance of the actuator: |dv/dt| <= I/C; the motor of a valve; a ramp "
+      "in a drive.";
   e.equation = "dv/dt = max(-fall, min(rise, (u - v)/time)), time = 1 ns";
   e.source =
       "Fleming, Moheimani, IEEE Trans. Control Syst. Technol. 13 (2005) 33 (current of a capacitive load); PI E-617 "
