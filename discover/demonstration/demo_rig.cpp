@@ -107,6 +107,10 @@ std::vector<DemoRig> device_rigs(const Effect& effect, const Effects& library, c
     demo_rig.place.by = by;
     list.push_back(std::move(demo_rig));
   }
+  // Those that become what the effect's own equation speaks of show it in its own units.
+  const std::string own =
+      effect.way == Way::vary && !effect.variation.empty() ? effect.laws(Excitation{}).front().block.type : "";
+  std::stable_partition(list.begin(), list.end(), [&](const DemoRig& b) { return b.place.by == own; });
   // Devices that an effect of the library makes are better known than any other.
   std::stable_partition(list.begin(), list.end(), [&](const DemoRig& b) {
     return std::any_of(library.list().begin(), library.list().end(),

@@ -1,6 +1,8 @@
 #include "discover/selection/told.h"
 
 #include <algorithm>
+#include <functional>
+#include <limits>
 #include <memory>
 #include <utility>
 
@@ -11,35 +13,52 @@ namespace {
 
 Numbers numbers_in(const Told& told) { return told.kept.empty() ? Numbers::written : Numbers::let_go; }
 
-/// The whole model, fitted by `told.context`, and what it is without its last terms. `base`: without all of them, where
-/// that cannot be fitted.
-void fit_chain(Told& told, const SearchState& state, CandidateModel whole, const CandidateModel& base,
-               bool must_be_fitted) {
+/// What a model fitted by `told.context` leaves in all recordings.
+TableModel measured_as_told(const FitSetting& setting, const Told& told, const TableModel& best,
+                            const CandidateModel& c) {
+  TableModel m = measured(setting, c, numbers_in(told), *told.context.weights, best.tried);
+  if (m.rounded) m.levels = std::make_shared<const LevelsFound>(LevelsFound{*m.rounded, m.left});
+  return m;
+}
+
+std::vector<TableModel> measured_chain(const FitSetting& setting, const Told& told, const TableModel& best) {
+  std::vector<TableModel> models;
+  for (const auto& c : told.chain) models.push_back(measured_as_told(setting, told, best, c));
+  return models;
+}
+
+/// The model without one of its effects, fitted from where it stands.
+CandidateModel rest_without(const FitContext& context, CandidateModel model, const Effect* gone) {
+  for (std::size_t i = model.placed.size(); i-- > 0 && model.ok;)
+    if (model.placed[i].effect == gone) model = without(context, model, i);
+  return model.ok ? refit(context, model, Effort::full) : model;
+}
+
+/// The whole model, fitted by `told.context`, and what it is without its last terms: of those that stand the one leaves
+/// first that it can best do without, wherever that was found on the way. Where it cannot be fitted without all of
+/// them, the user's own.
+void fit_chain(Told& told, const SearchState& state, CandidateModel whole, bool must_be_fitted,
+               const std::function<double(const CandidateModel&)>& score) {
   CandidateModel final;
   state.unless_stopped([&] { final = refit(told.context, whole, Effort::final); });
   if (final.ok || must_be_fitted) whole = std::move(final);
   told.terms = terms_of(whole);
   told.chain.assign(told.terms.size() + 1, whole);
   for (std::size_t k = told.terms.size(); k-- > 0 && whole.ok;) {
-    CandidateModel before = told.chain[k + 1];
-    // Terms before this one leave later: its own effects stand where they stand in the whole model, less those gone.
-    for (std::size_t i = before.placed.size(); i-- > 0 && before.ok;)
-      if (before.placed[i].effect == whole.placed[told.terms[k].front()].effect)
-        before = without(told.context, before, i);
-    told.chain[k] = before.ok ? refit(told.context, before, Effort::full) : before;
-    if (!told.chain[k].ok) told.chain[k] = k == 0 ? base : told.chain[k + 1];
+    double most = -std::numeric_limits<double>::infinity();
+    CandidateModel best;
+    for (std::size_t i = k + 1; i-- > 0;) {  // what was found last first
+      CandidateModel rest = rest_without(told.context, told.chain[k + 1], whole.placed[told.terms[i].front()].effect);
+      const double reached = rest.ok && k > 0 ? score(rest) : 0;
+      if (!rest.ok || (best.ok && reached <= most)) continue;
+      most = reached;
+      best = std::move(rest);
+      std::rotate(told.terms.begin() + static_cast<std::ptrdiff_t>(i),
+                  told.terms.begin() + static_cast<std::ptrdiff_t>(i) + 1,
+                  told.terms.begin() + static_cast<std::ptrdiff_t>(k) + 1);
+    }
+    told.chain[k] = best.ok ? std::move(best) : k == 0 ? state.base : told.chain[k + 1];
   }
-}
-
-/// What each model of the chain leaves in all recordings.
-std::vector<TableModel> measured_chain(const FitSetting& setting, const Told& told, const TableModel& best) {
-  std::vector<TableModel> models;
-  for (const auto& c : told.chain) {
-    models.push_back(measured(setting, c, numbers_in(told), *told.context.weights, best.tried));
-    TableModel& m = models.back();
-    if (m.rounded) m.levels = std::make_shared<const LevelsFound>(LevelsFound{*m.rounded, m.left});
-  }
-  return models;
 }
 
 /// Does each of them explain so much more than the one before it?
@@ -86,13 +105,16 @@ Told with_these_terms(SearchState& state, SearchState& searched, const Selection
   const bool elsewhere = &state != &searched;
   CandidateModel whole = best.model;
   if (elsewhere) whole.cuts.clear();  // rows of others
-  fit_chain(told, state, whole, state.base, elsewhere);
+  const auto scores = [&](const Told& as) {
+    return [&](const CandidateModel& c) { return score_of(selection.score(), measured_as_told(few, as, best, c)); };
+  };
+  fit_chain(told, state, whole, elsewhere, scores(told));
   if (!elsewhere && !is_true_of_all(few, state, selection.score(), told, best)) {
     Told with_all = told;
     with_all.context.data = all;
     with_all.fitted_to_all = true;
     with_all.context.derivatives = std::make_shared<DerivativeStore>();
-    fit_chain(with_all, state, std::move(whole), state.base, false);
+    fit_chain(with_all, state, std::move(whole), false, scores(with_all));
     if (is_true_of_all(few, state, selection.score(), with_all, best)) std::swap(told, with_all);
     of_all->count(with_all.context.derivatives->runs());
   }
