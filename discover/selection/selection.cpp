@@ -376,15 +376,22 @@ bool Selection::add_one(int step) {
   left_some_out_ = left_some_out_ || was_left_out;
   const StopScope to_its_end(nullptr);  // what was fitted until then is compared
   for (auto& r : rivals) r.tried.candidate = r.fitted.model;
-  rounds_.push_back({best_, std::move(rivals)});
-  const Round& round = rounds_.back();
-  const TableModel& before = step == 1 ? nulls_.better(score()) : best_;
+  rounds_.push_back({best_, std::move(rivals), broken_off});
+  return claim_of_last_round();
+}
+
+/// Asked once more when others have been fitted: what noise is taken for is read off all of them.
+bool Selection::claim_of_last_round() {
+  if (rounds_.empty()) return false;
+  Round& round = rounds_.back();
+  sort(round.rivals);
+  const TableModel& before = round.on.model.placed.empty() ? nulls_.better(score()) : round.on;
   const double needed = score_of(before) + rules::by_score;
   for (const auto& r : round.rivals) {
     if (!r.fitted.ok() || score_of(r.fitted) <= needed) break;
     if (!is_itself(r)) continue;
     // Where more than noise is left, who was not asked might have been the one.
-    if (broken_off && score().over_noise(r.fitted.left_at_last()) > rules::near_noise) break;
+    if (round.broken_off && score().over_noise(r.fitted.left_at_last()) > rules::near_noise) break;
     best_ = plainest_like(r, round.rivals).fitted;
     return true;
   }
@@ -458,7 +465,7 @@ void Selection::run(const std::function<bool(const TableModel&)>& is_over) {
   const int axes = static_cast<int>(state_.base_model->outputs().size());
   const int most = 3 * state_.options.max_steps + axes;  // a name or two may leave for each that stays
   for (int step = 1; step <= most && !state_.stopped(); ++step) {
-    if (!add_one(step) && !add_two(step + 1) && !in_two()) break;
+    if (!add_one(step) && !add_two(step + 1) && !in_two() && !claim_of_last_round()) break;
     {
       const StopScope to_its_end(nullptr);  // what is not needed is not claimed, however little time there was
       while (leave_out()) continue;

@@ -24,6 +24,7 @@ constexpr double near_noise = 1.1;
 struct Round {
   TableModel on;                 ///< the model that all of them stand on
   std::vector<Addition> rivals;  ///< best score first
+  bool broken_off = false;       ///< somebody was not asked
 };
 
 /// Indices of a model's standing effects, those of one name together: what enters like places at once is one term.
@@ -57,6 +58,7 @@ class Selection {
 
  private:
   bool add_one(int step);
+  bool claim_of_last_round();
   bool add_two(int step);
   void fit(std::vector<Addition>& rivals, int step);
   void fit_first_laws(std::vector<Addition>& rivals, int step);
