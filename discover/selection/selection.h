@@ -51,6 +51,8 @@ class Selection {
   /// with the rest; that term first, the others by their score. Among them, as `hidden`, what these recordings cannot
   /// show and may have acted all the same: a gain that follows a temperature, at one temperature.
   std::vector<Addition> in_place_of(const std::vector<std::size_t>& term);
+  /// Takes the best of what the last round asked, if it is claimed by the score of all models that have been fitted.
+  bool claim_of_last_round();
   /// This term of the best model (see terms_of) leaves it. False, and it stays, where the rest cannot be fitted.
   bool leave(const std::vector<std::size_t>& term);
   /// Those that are hidden, in place of an effect that stands alone.
@@ -58,7 +60,6 @@ class Selection {
 
  private:
   bool add_one(int step);
-  bool claim_of_last_round();
   bool add_two(int step);
   void fit(std::vector<Addition>& rivals, int step);
   void fit_first_laws(std::vector<Addition>& rivals, int step);
