@@ -209,6 +209,18 @@ TriedLaw the_only_law(const Candidate& c, const std::vector<double>& fall_by_rec
   return law;
 }
 
+/// Index of the effect among those that stand in its candidate's model: there, elsewhere on its wire, or the last one.
+std::size_t standing_of(const TriedEffect& t) {
+  const auto& placed = t.candidate.placed;
+  std::size_t found = placed.size() - 1;
+  for (std::size_t i = 0; i < placed.size(); ++i) {
+    if (placed[i].effect != t.effect) continue;
+    found = i;
+    if (placed[i].place.where() == t.place.where()) break;
+  }
+  return found;
+}
+
 }  // namespace
 
 Candidate candidate_of(const TriedEffect& t, int step) {
@@ -233,7 +245,7 @@ Candidate candidate_of(const TriedEffect& t, int step) {
     c.error = t.candidate.error_of;
     c.score = t.score;
     c.found = found_parameters(t.candidate, t.excitation);
-    c.summary = summary_of(t.candidate, t.candidate.placed.size() - 1, t.excitation);
+    c.summary = summary_of(t.candidate, standing_of(t), t.excitation);
   }
   c.laws_tried = t.laws_tried.empty() ? std::vector{the_only_law(c, t.fall_by_recording)} : t.laws_tried;
   return c;

@@ -152,6 +152,11 @@ void tell_step(SearchState& state, Search& searched, const Told& told, std::size
   for (std::size_t i = 1; i < term.size(); ++i) found.winner.also_at.push_back(whole.placed[term[i]].place.where());
   found.change = w.candidate.change;
   found.change.diagram = w.candidate.diagram;
+  const PlacedEffect& standing = whole.placed[term.front()];  // whatever was added last on the way
+  found.change.name = standing.name;
+  found.change.effect = standing.effect->id;
+  found.change.at = standing.place.at;
+  found.change.law = standing.law.name;
   state.d.steps.push_back(std::move(found));
 }
 

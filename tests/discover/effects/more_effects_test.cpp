@@ -410,6 +410,12 @@ TEST_F(MoreEffects, AStiffeningSpringInAGuideWithFrictionIsTwoEffectsOfOneBlock)
   std::vector<std::string> names{d.steps[0].winner.effect, d.steps[1].winner.effect};
   std::sort(names.begin(), names.end());
   ASSERT_EQ(names, (std::vector<std::string>{"friction", "stiffening"})) << tried(d);
+  for (const auto& step : d.steps) {
+    EXPECT_EQ(step.change.effect, step.winner.effect);
+    EXPECT_EQ(step.change.name, "stage");
+    EXPECT_EQ(step.winner.summary.find("cubic force") != std::string::npos, step.winner.effect == "stiffening")
+        << step.winner.summary;
+  }
   const auto value = [&](const char* path) {
     for (const auto& f : d.steps[1].winner.found)
       if (f.estimate.path == path) return f.estimate.used;
