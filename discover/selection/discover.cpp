@@ -225,8 +225,8 @@ void tell_candidates(SearchState& state, const Search& searched, const Told& tol
         t.score = selection.score_of(r.fitted) - selection.score_of(before);
         t.reason = why_not_itself(r.fitted);
         if (t.reason.empty()) t.reason = how_much_more(selection, r.fitted, before);
-        if (const auto left = told.left.find({t.effect, t.place.where()}); left != told.left.end())
-          t.reason = "fitted to its end it is not itself: " + left->second;
+        if (const auto gone = told.gone.find({t.effect, t.place.where()}); gone != told.gone.end())
+          t.reason = "fitted to its end it is not itself: " + gone->second;
       } else {
         t.reason = "could not be fitted: " + r.fitted.model.error;
       }

@@ -368,6 +368,7 @@ const Addition& Selection::plainest_like(const Addition& rival, const std::vecto
 }
 
 bool Selection::add_one(int step) {
+  unclaimed_ = false;
   auto rivals = list(step);
   if (rivals.empty()) return false;
   const bool was_left_out = std::exchange(left_some_out_, false);
@@ -377,12 +378,13 @@ bool Selection::add_one(int step) {
   const StopScope to_its_end(nullptr);  // what was fitted until then is compared
   for (auto& r : rivals) r.tried.candidate = r.fitted.model;
   rounds_.push_back({best_, std::move(rivals), broken_off});
+  unclaimed_ = true;
   return claim_of_last_round();
 }
 
 /// Asked once more when others have been fitted: what noise is taken for is read off all of them.
 bool Selection::claim_of_last_round() {
-  if (rounds_.empty()) return false;
+  if (!unclaimed_) return false;
   Round& round = rounds_.back();
   sort(round.rivals);
   const TableModel& before = round.on.model.placed.empty() ? nulls_.better(score()) : round.on;
@@ -393,6 +395,7 @@ bool Selection::claim_of_last_round() {
     // Where more than noise is left, who was not asked might have been the one.
     if (round.broken_off && score().over_noise(r.fitted.left_at_last()) > rules::near_noise) break;
     best_ = plainest_like(r, round.rivals).fitted;
+    unclaimed_ = false;
     return true;
   }
   best_ = before;

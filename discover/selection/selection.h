@@ -51,7 +51,8 @@ class Selection {
   /// with the rest; that term first, the others by their score. Among them, as `hidden`, what these recordings cannot
   /// show and may have acted all the same: a gain that follows a temperature, at one temperature.
   std::vector<Addition> in_place_of(const std::vector<std::size_t>& term);
-  /// Takes the best of what the last round asked, if it is claimed by the score of all models that have been fitted.
+  /// Takes the best of what was asked last on the best model, if it is claimed by the score of all models that have
+  /// been fitted. False, and nothing moves, where that has been claimed already.
   bool claim_of_last_round();
   /// This term of the best model (see terms_of) leaves it. False, and it stays, where the rest cannot be fitted.
   bool leave(const std::vector<std::size_t>& term);
@@ -106,6 +107,7 @@ class Selection {
   std::vector<LeftSums> left_;  ///< by all models that were fitted
   std::vector<Round> rounds_;
   bool left_some_out_ = false;
+  bool unclaimed_ = false;  ///< the last round stands on the best model, and nothing of it was taken
 };
 
 }  // namespace hysteron

@@ -21,6 +21,7 @@ TableModel measured_as_told(const FitSetting& setting, const Told& told, const T
   return m;
 }
 
+/// The same of each model of its chain.
 std::vector<TableModel> measured_chain(const FitSetting& setting, const Told& told, const TableModel& best) {
   std::vector<TableModel> models;
   for (const auto& c : told.chain) models.push_back(measured_as_told(setting, told, best, c));
@@ -125,17 +126,17 @@ Told with_these_terms(SearchState& state, SearchState& searched, const Selection
 }  // namespace
 
 Told to_be_told(SearchState& state, SearchState& searched, Selection& selection) {
-  std::map<std::pair<const Effect*, std::string>, std::string> left;
+  std::map<std::pair<const Effect*, std::string>, std::string> gone;
   for (;;) {
     Told told = with_these_terms(state, searched, selection);
     const auto* term = not_itself(told);
     if (term == nullptr || !selection.leave(*term)) {
-      told.left = std::move(left);
+      told.gone = std::move(gone);
       return told;
     }
     const CandidateModel& whole = told.chain.back();
     for (const std::size_t i : *term)
-      left[{whole.placed[i].effect, whole.placed[i].place.where()}] = why_implausible(whole, i);
+      gone[{whole.placed[i].effect, whole.placed[i].place.where()}] = why_implausible(whole, i);
   }
 }
 

@@ -22,7 +22,7 @@ struct Told {
   /// worse than with others, or than without it. So all are fitted to.
   bool fitted_to_all = false;
   /// Effects that had been found and left, by effect and place: why each was not itself with the numbers to be told.
-  std::map<std::pair<const Effect*, std::string>, std::string> left;
+  std::map<std::pair<const Effect*, std::string>, std::string> gone;
 };
 
 /// In the recordings of `state`, from what was found in those of `searched`, which may be the same. What is not itself

@@ -62,5 +62,21 @@ TEST_F(Selections, WhatIsNearlyClaimedIsClaimedWhereAnotherModelShowsLessNoise) 
   EXPECT_EQ(selection.best().model.placed.front().effect->id, "calibration");
 }
 
+TEST_F(Selections, WhatHasBeenClaimedIsNotClaimedOnceMore) {
+  const DataSet data = with_zero(1e-3);
+  const Diagram diagram = plain_gain();
+  DiscoverOptions options;
+  options.only = {"calibration"};
+  options.max_steps = 1;
+  SearchState state(diagram, data, registry, effects, options);
+  fit_base(state);
+  Selection selection(state, {});
+  int terms = 0;  // once for each that was added
+  selection.run([&](const TableModel&) { return ++terms, false; });
+  EXPECT_EQ(terms, 1) << "its round was claimed again and again";
+  ASSERT_EQ(selection.best().model.placed.size(), 1U);
+  EXPECT_FALSE(selection.claim_of_last_round());
+}
+
 }  // namespace
 }  // namespace hysteron
