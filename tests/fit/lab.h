@@ -54,6 +54,18 @@ inline Recording recording(const std::string& name, Role role, double step, std:
   return r;
 }
 
+/// One to fit to and one to judge, u = 3 - 3 cos of 1 and 1.7 Hz [V].
+inline DataSet swings(double step, std::size_t rows) {
+  DataSet data;
+  data.notes["u"].to = "u";
+  data.notes["y"].to = "y";
+  for (const double f : {1.0, 1.7})
+    data.recordings.push_back(recording(f < 1.5 ? "train" : "validate", f < 1.5 ? Role::train : Role::validate, step,
+                                        rows,
+                                        [f](double t) { return 3 - 3 * std::cos(2 * std::numbers::pi * f * t); }));
+  return data;
+}
+
 /// A diagram with input u [V] and output y, blocks to be added.
 inline Diagram diagram(const std::string& output) {
   Diagram d;

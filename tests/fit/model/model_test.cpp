@@ -14,17 +14,6 @@
 namespace hysteron {
 namespace {
 
-DataSet recordings(double step, std::size_t rows) {
-  DataSet data;
-  data.notes["u"].to = "u";
-  data.notes["y"].to = "y";
-  for (const double f : {1.0, 1.7})
-    data.recordings.push_back(lab::recording(f < 1.5 ? "train" : "validate", f < 1.5 ? Role::train : Role::validate,
-                                             step, rows,
-                                             [f](double t) { return 3 - 3 * std::cos(2 * std::numbers::pi * f * t); }));
-  return data;
-}
-
 ProgramPointer hysteretic_stage() {
   Diagram d = lab::diagram("lag");
   auto& law = lab::add(d, "law", "bouc_wen", "u");
@@ -38,7 +27,7 @@ ProgramPointer hysteretic_stage() {
 
 TEST(DataModel, ManyTrialsSayWhatEachSaysAlone) {
   const auto program = hysteretic_stage();
-  DataModel together(program, lab::shared(recordings(0.01, 300))), alone(program, lab::shared(recordings(0.01, 300)));
+  DataModel together(program, lab::shared(lab::swings(0.01, 300))), alone(program, lab::shared(lab::swings(0.01, 300)));
   const int beta = parameter_index(*program, "law.beta"), tau = parameter_index(*program, "lag.times[0]");
   std::vector<Trial> trials{{}};
   for (int i = 1; i < 7; ++i) trials.push_back({{beta, 0.3 + 0.01 * i}, {tau, 0.05 + 0.003 * i}});
@@ -63,8 +52,8 @@ TEST(DataModel, WithoutWorkspacesThatAreKeptItSaysTheSame) {
   const auto program = hysteretic_stage();
   DataModelOptions options;
   options.keep_workspaces = false;
-  DataModel kept(program, lab::shared(recordings(0.01, 300))),
-      given_back(program, lab::shared(recordings(0.01, 300)), options);
+  DataModel kept(program, lab::shared(lab::swings(0.01, 300))),
+      given_back(program, lab::shared(lab::swings(0.01, 300)), options);
   const std::vector<int> both{0, 1};
   const auto first = kept.predict({}, both), again = kept.predict({}, both);
   EXPECT_EQ(first.y, again.y);
@@ -75,7 +64,7 @@ TEST(DataModel, WithoutWorkspacesThatAreKeptItSaysTheSame) {
 
 TEST(DataModel, RowsThatAreJudgedAsTheyStandAreNotCopied) {
   const auto program = hysteretic_stage();
-  const auto data = lab::shared(recordings(0.01, 300));
+  const auto data = lab::shared(lab::swings(0.01, 300));
   const DataModel model(program, data);
   for (int r = 0; r < 2; ++r) {
     const Recording& recording = data->recordings[static_cast<std::size_t>(r)];
@@ -88,14 +77,14 @@ TEST(DataModel, RowsThatAreJudgedAsTheyStandAreNotCopied) {
 /// An input or an output that comes late, or rows that are not judged: rows of its own, those that were asked for.
 TEST(DataModel, RowsThatComeLateOrAreLeftOutAreItsOwn) {
   const auto program = hysteretic_stage();
-  DataSet late = recordings(0.01, 300);
+  DataSet late = lab::swings(0.01, 300);
   late.notes["u"].delay_samples = 2;
   const DataModel of_late(program, lab::shared(late));
   const auto& u = of_late.data().recordings[0].columns.at("u");
   const Rows rows = *of_late.shared_input(0, 0);
   ASSERT_EQ(rows.size(), u.size());
   for (std::size_t i = 0; i + 2 < u.size(); ++i) ASSERT_EQ(rows[i], u[i + 2]) << i;
-  DataSet cut = recordings(0.01, 300);
+  DataSet cut = lab::swings(0.01, 300);
   cut.recordings[0].first = 10;
   const DataModel of_cut(program, lab::shared(cut));
   const auto& whole = of_cut.data().recordings[0];
@@ -105,7 +94,7 @@ TEST(DataModel, RowsThatComeLateOrAreLeftOutAreItsOwn) {
   const auto& y = whole.columns.at("y");
   EXPECT_EQ(of_cut.measured(0, 0), Rows(y.begin() + 10, y.end()));
   // What the model says of the rows that are left is what it says of them in the whole recording.
-  DataModel all(program, lab::shared(recordings(0.01, 300))), part(program, lab::shared(cut));
+  DataModel all(program, lab::shared(lab::swings(0.01, 300))), part(program, lab::shared(cut));
   const std::vector<int> one{0};
   const Rows of_all = all.predict({}, one).y[0][0], of_part = part.predict({}, one).y[0][0];
   ASSERT_EQ(of_part.size() + 10, of_all.size());
@@ -127,7 +116,7 @@ TEST(DataModel, WhatIsTooStiffForRowsIsIntegrated) {
   lab::add(d, "y", "gain", "x").parameters["gain"] = "1 um/V";
   const auto program = compile(d, lab::registry());
   ASSERT_EQ(why_not_exact(*program), "");
-  DataModel model(program, lab::shared(recordings(0.01, 60)));
+  DataModel model(program, lab::shared(lab::swings(0.01, 60)));
   const auto prediction = model.predict({}, std::vector<int>{0});
   ASSERT_TRUE(prediction.ok) << prediction.error;
   EXPECT_NE(model.why_not_exact().find("64 substeps per row do not suffice"), std::string::npos);
@@ -181,7 +170,7 @@ TEST(DataModel, ARecordingThatComesLateTurnsWhereItIsKnownTo) {
   lab::add(d, "y", "gain", "plant").parameters["gain"] = "1 um/V";
   const auto program = compile(d, lab::registry());
   for (const auto between : {Between::linear, Between::hold}) {
-    DataSet data = recordings(0.01, 300);
+    DataSet data = lab::swings(0.01, 300);
     data.notes["u"].between = between;
     lab::measure(data, program, 0, 26);
     DataModelOptions options;
@@ -202,7 +191,7 @@ TEST(DataModel, ADelayThatIsFittedIsFoundWhereverItBegins) {
   lab::add(d, "late", "dead_time", "u").parameters["delay"] = "1 ms";
   lab::add(d, "y", "gain", "late").parameters["gain"] = "1 um/V";
   const auto program = compile(d, lab::registry());
-  DataSet data = recordings(0.01, 300);
+  DataSet data = lab::swings(0.01, 300);
   for (auto& r : data.recordings) {
     const auto& u = r.columns.at("u");
     auto& y = r.columns["y"];
@@ -350,115 +339,6 @@ TEST(DataModel, WhatHappensWithinAHundredthOfSomeRowsCutsThoseAlone) {
   EXPECT_LT(model.cross_check({}, std::vector<int>{0})[0], 5e-5) << "1e-5 of the span was asked for";
 }
 
-/// A guide of 400 Hz beside elements that hold back a tenth of the force, in rows of 1/40 s: 60 radians each, in which
-/// its ringing dies away.
-Diagram stage_beside_elements_in(const std::string& type) {
-  Diagram d = lab::diagram("y");
-  lab::add(d, "force", "gain", "u").parameters["gain"] = "1 N/V";
-  auto& mass = lab::add(d, "mass", type, "force");
-  mass.parameters["mass"] = "1 kg";
-  mass.parameters["damping"] = "1000 N*s/m";
-  mass.parameters["stiffness"] = "6.3e6 N/m";
-  mass.parameters["contact_stiffness"] = NumberList{{2e6, "N/m"}, {9e5, "N/m"}};
-  mass.parameters["slip_distance"] = NumberList{{0.1, "um"}, {0.3, "um"}};
-  lab::add(d, "y", "gain", "mass.position").parameters["gain"] = "1";
-  return d;
-}
-ProgramPointer stage_beside_elements(const std::string& type, double excess = 0, const std::string& contact_time = "") {
-  Diagram d = stage_beside_elements_in(type);
-  auto& mass = *d.blocks.find("mass");
-  mass.parameters["excess"] = excess;
-  mass.parameters["stribeck_velocity"] = "5 um/s";  // of up to 10 um/s
-  if (!contact_time.empty()) mass.parameters["contact_time"] = contact_time;
-  return compile(d, lab::registry());
-}
-
-/// Rows of `step` seconds are advanced exactly, and as BDF does. Steps of one simulation of the second recording.
-long expect_the_integrator(const ProgramPointer& program, double step, std::size_t rows) {
-  DataSet data = recordings(step, rows);
-  lab::measure(data, program, 0, 22);
-  DataModelOptions options;
-  options.relative_tolerance = 1e-9;
-  DataModel model(program, lab::shared(data), options);
-  const std::vector<int> both{0, 1};
-  EXPECT_TRUE(model.predict({}, both).ok) << step;
-  EXPECT_EQ(model.why_not_exact(), "") << step;
-  EXPECT_LT(model.cross_check({}, both)[0], 5e-6) << step;  // 1e-6 of the span was asked for
-  return model.steps(1);
-}
-
-TEST(DataModel, ElementsThatHoldLessWhileTheySlideFastAgreeWithTheIntegrator) {
-  // Two and a half radians in a row, and a quarter of one.
-  for (const std::string type : {"mass_with_presliding", "mass_on_hysteretic_spring"})
-    for (const double step : {1e-3, 1e-4}) expect_the_integrator(stage_beside_elements(type, 0.5), step, 1500);
-}
-
-TEST(DataModel, AContactThatIsDampedAgreesWithTheIntegrator) {
-  // As much damping as three tenths of the guide's own while it sticks.
-  for (const double step : {1e-3, 1e-4})
-    expect_the_integrator(stage_beside_elements("mass_with_presliding", 0.5, "0.1 ms"), step, 1500);
-}
-
-TEST(DataModel, WhatRemembersBesideWhatBendsAndAFluidAgreesWithTheIntegrator) {
-  // A tenth more force at the travel of 1 um, three tenths more one way, and as much drag at 5 mm/s as the damper's
-  // tenth part: each alone would be seen.
-  for (const std::string type : {"mass_with_presliding", "mass_on_hysteretic_spring"})
-    for (const double step : {1e-3, 1e-4}) {
-      Diagram d = stage_beside_elements_in(type);
-      auto& mass = *d.blocks.find("mass");
-      mass.parameters["stiffening"] = "6.3e17 N/m^3";
-      mass.parameters["quadratic"] = "1.9e12 N/m^2";
-      mass.parameters["quintic"] = "1e29 N/m^5";
-      mass.parameters["drag"] = "2e7 N*s^2/m^2";
-      expect_the_integrator(compile(d, lab::registry()), step, 1500);
-    }
-}
-
-/// The same guide on a spring that remembers, unevenly over its travel of 1 um.
-Diagram stage_on_a_spring_of_plays() {
-  Diagram d = lab::diagram("y");
-  lab::add(d, "force", "gain", "u").parameters["gain"] = "1 N/V";
-  auto& mass = lab::add(d, "mass", "mass_on_spring_of_plays", "force");
-  mass.parameters["mass"] = "1 kg";
-  mass.parameters["damping"] = "1000 N*s/m";
-  mass.parameters["stiffness"] = "6.3e6 N/m";
-  mass.parameters["thresholds"] = NumberList{{0.03, "um"}, {0.2, "um"}};
-  mass.parameters["at_lower"] = NumberList{{1e5, "N/m"}, {9e5, "N/m"}};
-  mass.parameters["in_middle"] = NumberList{{8e5, "N/m"}, {1e5, "N/m"}};
-  mass.parameters["at_upper"] = NumberList{{2e5, "N/m"}, {0, "N/m"}};
-  mass.parameters["lower"] = "-0.5 um";
-  mass.parameters["upper"] = "0.5 um";
-  lab::add(d, "y", "gain", "mass.position").parameters["gain"] = "1";
-  return d;
-}
-
-TEST(DataModel, ASpringOfPlaysAgreesWithTheIntegrator) {
-  for (const double step : {1 / 40.0, 1e-3, 1e-4})
-    expect_the_integrator(compile(stage_on_a_spring_of_plays(), lab::registry()), step, 800);
-}
-
-TEST(DataModel, ASpringOfPlaysThatStiffensAgreesWithTheIntegrator) {
-  Diagram d = stage_on_a_spring_of_plays();
-  d.blocks.find("mass")->parameters["stiffening"] = "6.3e17 N/m^3";  // a tenth more at 1 um
-  for (const double step : {1 / 40.0, 1e-3, 1e-4}) expect_the_integrator(compile(d, lab::registry()), step, 800);
-}
-
-TEST(DataModel, ABoucWenSpringAgreesWithTheIntegrator) {
-  Diagram d = lab::diagram("y");
-  lab::add(d, "force", "gain", "u").parameters["gain"] = "1 N/V";
-  auto& mass = lab::add(d, "mass", "mass_on_bouc_wen_spring", "force");
-  mass.parameters["mass"] = "1 kg";
-  mass.parameters["damping"] = "1000 N*s/m";
-  mass.parameters["stiffness"] = "6.3e6 N/m";
-  mass.parameters["hysteretic_share"] = "0.4";
-  mass.parameters["beta"] = "4 1/um";
-  mass.parameters["gamma"] = "-5 1/um";
-  lab::add(d, "y", "gain", "mass.position").parameters["gain"] = "1";
-  const auto program = compile(d, lab::registry());
-  // In slower rows it rings between them, and every small loop leaves something behind: those are integrated.
-  for (const double step : {1e-3, 1e-4}) expect_the_integrator(program, step, 800);
-}
-
 /// A stiffening mass whose position was measured, and is asked for with `gain` times as much of it.
 Diagram stiffening_mass(const char* gain) {
   Diagram d = lab::diagram("y");
@@ -478,7 +358,7 @@ TEST(DataModel, OrdinaryConvergenceIsNotTakenForRinging) {
   // length, and one that is cut into 64 shows 4/3 of what halving it shows. Where that lies below the tolerance by less
   // than this, rows that were cut to see if anything rings there showed more than it, and so did the next ones.
   const auto program = compile(stiffening_mass("1"), lab::registry());
-  DataSet data = recordings(0.01, 400);
+  DataSet data = lab::swings(0.01, 400);
   lab::measure(data, program, 0, 24);
   std::vector<long> steps;
   for (int k = 0; k < 12; ++k) {  // over two octaves of the tolerance: one of substeps
@@ -497,7 +377,7 @@ TEST(DataModel, OrdinaryConvergenceIsNotTakenForRinging) {
 TEST(DataModel, RowsAreNoMoreExactThanAShareOfWhatTheModelLeaves) {
   const auto right = compile(stiffening_mass("1"), lab::registry()),
              wrong = compile(stiffening_mass("1.5"), lab::registry());
-  DataSet data = recordings(0.01, 400);
+  DataSet data = lab::swings(0.01, 400);
   lab::measure(data, right, 0, 24);
   const auto steps_and_rows = [&](const ProgramPointer& program, double share) {
     DataModelOptions options;
@@ -530,7 +410,7 @@ TEST(DataModel, LinearStatesAreNoneThatCostMore) {
   lab::add(d, "lag", "lag", "u").parameters["times"] = NumberList{{20, "ms"}};
   lab::add(d, "y", "gain", "lag").parameters["gain"] = "1 um/V";
   const auto program = compile(d, lab::registry());
-  DataSet data = recordings(0.01, 50);
+  DataSet data = lab::swings(0.01, 50);
   lab::measure(data, program, 0, 24);
   EXPECT_FALSE(DataModel(program, lab::shared(data)).integrates());
 }
@@ -539,7 +419,7 @@ TEST(DataModel, AnInputThatMovesSmoothlyHasItsOwnSteps) {
   Diagram d = lab::diagram("y");
   lab::add(d, "y", "gain", "u").parameters["gain"] = "1 um/V";
   const auto program = compile(d, lab::registry());
-  DataSet data = recordings(0.05, 300);
+  DataSet data = lab::swings(0.05, 300);
   lab::measure(data, program, 0, 25);
   DataModel straight(program, lab::shared(data));
   data.notes["u"].between = Between::smooth;
@@ -550,17 +430,10 @@ TEST(DataModel, AnInputThatMovesSmoothlyHasItsOwnSteps) {
   EXPECT_EQ(smooth.steps(0), passed);
 }
 
-TEST(DataModel, SlowRowsOfAGuideNeedNoStepsOfItsResonance) {
-  for (const std::string type : {"mass_with_presliding", "mass_on_hysteretic_spring"}) {
-    const long steps = expect_the_integrator(stage_beside_elements(type), 1 / 40.0, 400);
-    EXPECT_LT(steps, 20 * 400) << type << ": Runge-Kutta alone has no answer from less than 22 steps a row";
-  }
-}
-
 TEST(DataModel, SubstepsThatCouldNotBeFoundAreSoughtFromOne) {
   // With no number for a mass nothing is simulated, and the most substeps that there may be are no beginning.
   const auto program = stage_on_a_stiffening_spring("1e8 N/m^3");
-  DataSet data = recordings(0.05, 100);
+  DataSet data = lab::swings(0.05, 100);
   lab::measure(data, program, 0, 26);
   DataModel model(program, lab::shared(data));
   model.choose_substeps(Trial{{parameter_index(*program, "mass.mass"), std::nan("")}});
@@ -573,7 +446,7 @@ TEST(DataModel, SubstepsThatCouldNotBeFoundAreSoughtFromOne) {
 
 TEST(DataModel, ATrialThatRunsAwayGetsMoreSubsteps) {
   const auto program = stage_on_a_stiffening_spring("1 N/m^3");
-  DataSet data = recordings(0.01, 300);
+  DataSet data = lab::swings(0.01, 300);
   lab::measure(data, program, 0, 21);
   DataModel model(program, lab::shared(data));
   const std::vector<int> both{0, 1};
@@ -595,7 +468,7 @@ TEST(DataModel, ATrialThatRunsAwayGetsMoreSubsteps) {
 TEST(DataModel, WhatAlwaysRunsAwayIsNotAskedForItsSubstepsForEver) {
   // A spring that softens until it pushes, at ten times the force that it can hold.
   const auto program = stage_on_a_stiffening_spring("1 N/m^3");
-  DataSet data = recordings(0.01, 300);
+  DataSet data = lab::swings(0.01, 300);
   lab::measure(data, program, 0, 23);
   DataModelOptions options;
   options.bdf_otherwise = false;
