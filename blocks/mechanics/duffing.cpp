@@ -4,7 +4,7 @@ namespace hysteron::blocks {
 
 void Duffing::describe(BlockSpec<Duffing>& spec) {
   spec.name("duffing", "one resonance on a nonlinear spring (Duffing), gain 1 of small motions")
-      .in_group("linear")
+      .in_group("mechanics")
       .elementwise();
   spec.law("y''/w^2 + 2 damping y'/w + y + quadratic y^2 + stiffening y^3 + quintic y^5 = u, w = 2 pi frequency")
       .from("Duffing's oscillator; Nayfeh, Mook, Nonlinear Oscillations (1979)");

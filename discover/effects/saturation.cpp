@@ -53,7 +53,7 @@ Effect saturation() {
     upper.path = "upper";
     upper.start = upper.upper = at.highest;
     upper.lower = at.lowest + 0.51 * range;
-    // First of all none: what the fitted recordings do not reach is left to itself.
+    // First of all none.
     lower.scan = {at.lowest};
     upper.scan = {at.highest};
     for (const double share : {0.0, 0.03, 0.1, 0.2, 0.35}) {

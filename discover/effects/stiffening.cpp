@@ -43,8 +43,8 @@ Effect stiffening() {
   e.summary = [](const Law&, const std::vector<double>& values, const Excitation& at) {
     const double x = std::max(std::abs(at.travel_lowest), std::abs(at.travel_highest));
     if (is_of_one_unit(at))
-      return fmt::format("at the largest motion the spring pulls {:.2g} % more than in proportion",
-                         100 * values[0] * x * x);
+      return fmt::format("at the largest motion the spring pulls {:.2g} % {} than in proportion",
+                         std::abs(100 * values[0] * x * x), values[0] < 0 ? "less" : "more");
     return fmt::format("{:.3g} N of cubic force at the largest travel", values[0] * x * x * x);
   };
   e.laws = [](const Excitation& at) {
