@@ -322,8 +322,9 @@ namespace {
 const std::vector<Unit>& named_units() {
   static const std::vector<Unit> all = [] {
     std::vector<Unit> units;
-    for (const char* text : {"Hz", "N", "V", "N m", "W", "Pa", "C", "ohm", "F", "H", "Wb", "T", "N/m", "N m/rad",
-                             "N m s/rad", "N/V", "N/A"})
+    for (const char* text :
+         {"Hz",  "N",       "V",         "N m", "W",   "Pa",  "C",   "ohm", "F",   "H",     "Wb",   "T",
+          "N/m", "N m/rad", "N m s/rad", "N/V", "N/A", "V/s", "V/m", "m/V", "1/V", "1/V^2", "1/V^4"})
       units.push_back(parse_unit(text));
     return units;
   }();
