@@ -40,8 +40,10 @@ T sliding_force(const Params<T>& p, const T& velocity) {
   using std::pow;
   if (!(p.stribeck_velocity > T{0})) return p.coulomb;
   const T ratio = velocity / p.stribeck_velocity, more = p.breakaway - p.coulomb;
-  if constexpr (std::is_same_v<T, double>)  // what carries slopes carries that of the exponent, too
+  if constexpr (std::is_same_v<T, double>) {  // what carries slopes carries that of the exponent, too
     if (p.falls_by == 2) return p.coulomb + more * exp(-(ratio * ratio));
+    if (p.falls_by == 1) return p.coulomb + more * exp(-abs(ratio));
+  }
   if (!(abs(ratio) > T{0})) return p.breakaway;
   return p.coulomb + more * exp(-pow(T(abs(ratio)), p.falls_by));
 }

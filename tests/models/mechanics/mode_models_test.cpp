@@ -93,11 +93,15 @@ TEST(FrictionModel, OscillatorLosesTheSameAmplitudeEachHalfCycle) {
 }
 
 TEST(FrictionModel, StribeckCurveFallsFromBreakawayToCoulomb) {
-  const friction::Params<double> p{.coulomb = 1, .breakaway = 1.5, .stribeck_velocity = 0.01};
+  friction::Params<double> p{.coulomb = 1, .breakaway = 1.5, .stribeck_velocity = 0.01};
   EXPECT_EQ(friction::sliding_force(p, 0.0), 1.5);
   EXPECT_NEAR(friction::sliding_force(p, 0.01), 1 + 0.5 * std::exp(-1), 1e-15);
   EXPECT_NEAR(friction::sliding_force(p, 1.0), 1, 1e-15);
   EXPECT_EQ(friction::sliding_force(friction::Params<double>{.coulomb = 1, .breakaway = 2}, 0.0), 1);
+  p.falls_by = 1;
+  EXPECT_NEAR(friction::sliding_force(p, -0.02), 1 + 0.5 * std::exp(-2), 1e-15);
+  p.falls_by = 1.5;
+  EXPECT_NEAR(friction::sliding_force(p, -0.02), 1 + 0.5 * std::exp(-std::sqrt(8)), 1e-15);
 }
 
 TEST(FrictionModel, WithoutFrictionTheMassNeverSticks) {
@@ -257,6 +261,14 @@ TEST(RateLimiterModel, ARampMayBeCutAnywhere) {
       EXPECT_NEAR(rate_limiter::gap_after_ramp(p, half, slope, 0.4), rate_limiter::gap_after_ramp(p, begin, slope, 0.7),
                   1e-13);  // some roundings
     }
+}
+
+TEST(RateLimiterModel, BehindARowThatIsAMillionTimesAsLongTheGapIsThatOfTheRamp) {
+  const rate_limiter::Params<double> p{.rise = 4, .fall = 2, .time = 1e-9};
+  const double rounding = 1e-24;
+  EXPECT_NEAR(rate_limiter::gap_after_ramp(p, 0, 3, 1e-3), 3e-9, rounding);
+  EXPECT_NEAR(rate_limiter::gap_after_ramp(p, 3e-9, -1, 1e-3), -1e-9, rounding);
+  EXPECT_NEAR(rate_limiter::gap_after_ramp(p, 0, 3, 2e-9), 3e-9 * (1 - std::exp(-2)), rounding);
 }
 
 TEST(RateLimiterModel, WithoutATimeConstantThereIsNoGapWithinTheLimits) {
