@@ -51,8 +51,10 @@ std::vector<std::string> standing_at(const Wiring& w, const Registry& registry, 
   const auto collect = [&](const std::string& wire) {
     for (const auto& name : w.chain(wire)) ids.push_back(w.diagram().blocks.find(name)->effect);
   };
+  const std::string* output = output_of_reading(w.diagram(), place.reading);
   if (!place.reading.empty())  // between the wire and who reads it
-    for (std::string s = place.wire; ids.size() < 64 && w.is_inserted(w.source(s));) {
+    for (std::string s = output == nullptr ? place.wire : w.signal(*output);
+         ids.size() < 64 && w.is_inserted(w.source(s));) {
       const Node& inserted = *w.diagram().blocks.find(w.source(s));
       ids.push_back(inserted.effect);
       s = w.signal(inserted.in.front().from);

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <initializer_list>
 #include <set>
 #include <string_view>
 
@@ -42,14 +41,22 @@ int rank_of(const Wiring& w, const Registry& registry, const std::string& wire, 
   return w.has_memory(block) ? rank("core") : -1;
 }
 
+/// What moves a reading alone: a zero, what a cable picks up, a converter.
+bool is_offset(const Wiring& w, const std::string& block) {
+  const Node* node = w.body(block);
+  return node != nullptr && (node->type == "calibration" || node->type == "mains_interference" ||
+                             node->type == "sensor_drift" || node->type == "rounding");
+}
+
 }  // namespace
 
-Place on_wire(const Wiring& w, const Registry& registry, const std::string& kind, const std::string& wire) {
+Place on_wire(const Wiring& w, const Registry& registry, const std::string& kind, const std::string& wire,
+              bool behind_offset) {
   Place p;
   p.kind = kind;
   p.at = p.wire = wire;
   for (const auto& effect : w.chain(wire)) {
-    if (rank_of(w, registry, wire, effect) > rank(kind)) {
+    if (rank_of(w, registry, wire, effect) > rank(kind) || (!behind_offset && is_offset(w, effect))) {
       const auto ports = w.ports(effect);  // one that reads a second signal names its ports
       p.at = effect + "." + (ports.size() > 1 ? ports.front() : "in");
       p.on = wire;
@@ -64,10 +71,7 @@ std::string before_offset(const Wiring& w, const std::string& signal) {
   const std::string block = w.source(signal);
   if (block.empty()) return signal;
   const Node* node = w.body(block);
-  const auto is_any_of = [&](std::initializer_list<const char*> types) {
-    return std::find(types.begin(), types.end(), node->type) != types.end();
-  };
-  if (node == nullptr || !is_any_of({"calibration", "sum", "mains_interference", "rounding"})) return signal;
+  if (node == nullptr || (node->type != "sum" && !is_offset(w, block))) return signal;
   std::string moving;
   for (const auto& wire : w.diagram().blocks.find(block)->in) {
     const std::string from = w.signal(wire.from);
@@ -80,11 +84,13 @@ std::string before_offset(const Wiring& w, const std::string& signal) {
 }
 
 std::string start_of_chain(const Wiring& w, const std::string& signal) {
-  for (const auto& s : w.signals()) {
-    const auto chain = w.chain(s);
-    if (!chain.empty() && chain.back() == signal) return s;
+  std::string start = signal, before = signal;
+  for (int depth = 0; depth < 64 && w.is_inserted(w.source(before)); ++depth) {
+    before = w.signal(w.diagram().blocks.find(w.source(before))->in.front().from);
+    const auto chain = w.chain(before);
+    if (std::find(chain.begin(), chain.end(), signal) != chain.end()) start = before;
   }
-  return signal;
+  return start;
 }
 
 std::vector<Reading> readings(const Wiring& w) {
@@ -146,6 +152,19 @@ bool is_controlled(const Wiring& w, const Registry& registry, const std::string&
   return false;
 }
 
+/// Before what moves a reading alone and stands before it already.
+void go_before_offsets(const Wiring& w, Place& p) {
+  const std::string where = p.at;
+  for (int depth = 0; depth < 64; ++depth) {
+    const std::string block = w.source(p.wire);
+    if (!w.is_inserted(block) || !is_offset(w, block)) return;
+    const auto ports = w.ports(block);
+    p.at = block + "." + (ports.size() > 1 ? ports.front() : "in");
+    p.wire = w.signal(w.diagram().blocks.find(block)->in.front().from);
+    p.on = where;
+  }
+}
+
 /// Blocks beside who reads it there go on from this wire.
 bool moves_blocks(const Wiring& w, const std::string& wire) {
   const auto followers = w.followers(wire);
@@ -179,6 +198,7 @@ std::vector<Place> measured_places(const Wiring& w, const Registry& registry, co
     Place p;
     if (reading.by.block.empty()) {
       p = place_of_reading(w, reading.by.output);
+      if (!behind_offset) go_before_offsets(w, p);
     } else {
       p.kind = "measured";
       p.at = fmt::format("{}.in[{}]", reading.by.block, reading.by.index);
@@ -188,13 +208,13 @@ std::vector<Place> measured_places(const Wiring& w, const Registry& registry, co
     }
     std::vector<Place> both{std::move(p)};
     if (is_controlled(w, registry, wire)) {
-      both.push_back(on_wire(w, registry, "measured", wire));
+      both.push_back(on_wire(w, registry, "measured", wire, behind_offset));
       set_groups(w, both.back());
     }
     return both;
   }
   Place p = on_wire(w, registry, "measured",
-                    start_of_chain(w, behind_offset ? reading.wire : before_offset(w, reading.wire)));
+                    start_of_chain(w, behind_offset ? reading.wire : before_offset(w, reading.wire)), behind_offset);
   set_groups(w, p);
   return {std::move(p)};
 }

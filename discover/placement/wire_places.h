@@ -12,13 +12,14 @@ namespace hysteron {
 
 /// A place on `wire` for an effect of `kind`: behind the effects that stand there already, but before those that come
 /// later along the signal: a lag of the amplifier enters before a hysteresis that was found first, a resonance before
-/// the curve of a sensor.
-Place on_wire(const Wiring& w, const Registry& registry, const std::string& kind, const std::string& wire);
-/// The signal before constant offsets and what a cable picks up: a gain-like effect must not act on the zero of a
-/// sensor, and nothing in the device delays the mains.
+/// the curve of a sensor. And before what moves a reading alone, unless it is `behind_offset` itself: nothing in the
+/// device delays the mains or what the zero of an amplifier drifts.
+Place on_wire(const Wiring& w, const Registry& registry, const std::string& kind, const std::string& wire,
+              bool behind_offset = false);
+/// The signal before what moves a reading alone, and constant offsets: a gain-like effect must not act on the zero of
+/// a sensor.
 std::string before_offset(const Wiring& w, const std::string& signal);
-/// A signal that is the end of a chain of effects, told as the wire on which they stand: "u" rather than
-/// "u_hysteresis".
+/// A signal of a chain of effects, told as the wire on which they stand: "u" rather than "u_hysteresis".
 std::string start_of_chain(const Wiring& w, const std::string& signal);
 /// A wire that is measured, and who reads it there: an output of the diagram, or a mux that bundles it for one.
 struct Reading {

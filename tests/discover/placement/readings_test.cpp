@@ -71,6 +71,34 @@ TEST_F(Readings, AreAPlaceOfWhatLiesBetweenMotionAndSensorBesideTheWireItself) {
   EXPECT_EQ(where("backlash", back_emf_motor()), (std::vector<std::string>{"outputs.w", "speed"}));
 }
 
+/// With the effect at its first place, by its first law.
+Diagram with(const Diagram& d, const char* effect, const Registry& registry, const Effects& effects) {
+  return add_effect(d, registry, effects.get(effect), "").diagram;
+}
+
+// Behind the mains or a drift every lag would follow a function of time, and a curve bend what it never saw.
+TEST_F(Readings, OfASensorStandBeforeWhatMovesTheReadingAlone) {
+  for (const char* stands : {"mains_interference", "sensor_drift", "calibration"}) {
+    const Diagram d = with(back_emf_motor(), stands, registry, effects);
+    const Diagram both = with(d, "sensor_lag", registry, effects);
+    EXPECT_EQ(*both.outputs.find("w"), std::string("w_") + stands);
+    EXPECT_EQ(both.blocks.find(std::string("w_") + stands)->in.front().from, "speed_sensor_lag") << stands;
+    ASSERT_NE(both.blocks.find("speed_sensor_lag"), nullptr) << stands;
+    EXPECT_EQ(both.blocks.find("speed_sensor_lag")->in.front().from, "speed") << stands;
+    EXPECT_TRUE(where(stands, both).empty()) << stands << " is offered twice";
+  }
+}
+
+TEST_F(Readings, OfAnElementOfAVectorAreCalledByItWhateverStandsThere) {
+  Diagram d = back_emf_motor();
+  d.blocks["both"] = block("mux", {{"", "speed"}, {"", "acceleration"}});
+  d.outputs["w"] = "both[0]";
+  const Diagram stands = with(d, "mains_interference", registry, effects);
+  for (const char* effect : {"sensor_lag", "sensor_nonlinearity"})
+    for (const auto& p : places_of(effects.get(effect), stands, registry))
+      EXPECT_EQ(p.where().find("mains"), std::string::npos) << effect << " at " << p.where();
+}
+
 TEST_F(Readings, AreNoPlacesOfTheirOwnWhereNobodyElseReads) {
   Diagram d = back_emf_motor();
   d.blocks["sensor"] = block("gain", {{"", "speed"}});
