@@ -311,16 +311,19 @@ void select(Search& search) {
   }
 }
 
-/// Beside all that was found, where more than noise is left: beside a part of it what is still missing would pass for a
-/// start.
+/// Beside all that was found: beside a part of it what is still missing would pass for a start. And in the place of
+/// each term: nobody has to believe in an effect that a start can be.
 void look_at_starts(Search& search) {
-  const TableModel& best = search.selection->best();
-  if (search.smooth || best.model.placed.empty()) return;
+  Selection& selection = *search.selection;
+  if (search.smooth || selection.best().model.placed.empty()) return;
+  const FitSetting& setting = selection.setting();
   search.state.unless_stopped([&] {
-    search.state.current = best.model;
-    search.state.settle(search.state.current);
-    if (search.state.current.error_of.over_floor() > rules::floor_gate)
-      search.moving = begin_in_motion_beside(search.selection->setting(), best);
+    search.moving = begin_in_motion_beside(setting, selection.best(), selection.best(), rules::by_score);
+    for (const auto& term : terms_of(selection.best().model)) {
+      if (!search.moving.empty()) break;
+      if (const TableModel rest = selection.rest_without(term); rest.ok())
+        search.moving = begin_in_motion_beside(setting, rest, selection.best(), -rules::tie);
+    }
   });
 }
 
@@ -337,12 +340,14 @@ std::unique_ptr<Search> search_with(const Asked& asked, const DataSet& data, con
   return search;
 }
 
-/// In the order of the recordings.
+/// In the order of the recordings, each once.
 void add_starts(std::vector<std::string>& known, const std::vector<std::string>& more, const DataSet& data) {
   const auto all = std::exchange(known, {});
-  for (const auto& r : data.recordings)
-    for (const auto* list : {&all, &more})
-      if (std::find(list->begin(), list->end(), r.name) != list->end()) known.push_back(r.name);
+  const auto is_in = [](const std::vector<std::string>& names, const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  for (const auto& r : data.recordings)  // one that is cut in time stands there twice
+    if ((is_in(all, r.name) || is_in(more, r.name)) && !is_in(known, r.name)) known.push_back(r.name);
 }
 
 std::unique_ptr<Search> search_in(const Asked& asked, const DataSet& data) {

@@ -6,7 +6,6 @@
 
 #include "discover/models/fit_candidate_model.h"
 #include "discover/search/held_numbers.h"
-#include "fit/estimate/beginning.h"
 
 namespace hysteron {
 namespace {
@@ -20,6 +19,10 @@ double squares_over(const LeftSums& left, const LeftSums& than) {
   return sum / static_cast<double>(left.size());
 }
 
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
 /// Recordings of which nobody says where they begin, by name.
 std::vector<std::string> without_stated_start(const DataSet& data) {
   std::vector<std::string> names;
@@ -28,20 +31,30 @@ std::vector<std::string> without_stated_start(const DataSet& data) {
   return names;
 }
 
+DataSet with_starts(const DataSet& data, const std::vector<std::string>& moving) {
+  Discovery some_move;
+  some_move.found_starts = moving;
+  return as_found(data, some_move);
+}
+
 /// What this model says with these numbers from rest, but for the recordings named.
 Prediction from_rest(const SearchState& free, const DataSet& given, const TableModel& model,
                      const std::vector<std::string>& moving) {
-  Discovery some_move;
-  some_move.found_starts = moving;
   FitContext context = free.context;
-  context.data = std::make_shared<const DataSet>(as_found(given, some_move));
+  context.data = std::make_shared<const DataSet>(with_starts(given, moving));
   const auto program = compile(model.model.diagram, free.registry);
   DataModel data_model = searched_model(context, program, Effort::full);
   return data_model.predict({}, free.evidence->recordings());
 }
 
+/// Schwarz's price of the states of a recording whose start is free, in its own witnesses.
+double price_of_start(const DataModel& model, const BlockScore& score, int recording) {
+  const auto states = static_cast<double>(model.free_initial_states().size());
+  return 0.5 * states * std::log(std::max(score.n_eff(recording), 2.0));
+}
+
 /// Of the recordings that may move, those that cannot rest (an integrator whose input is not zero), and those whose
-/// free start explains more than its states cost: by Schwarz's price in the recording's own witnesses.
+/// free start explains more than its states cost.
 std::vector<std::string> worth_a_start(const SearchState& free, const DataSet& given, const TableModel& best) {
   const DataModel& model = *free.base_model;
   std::vector<std::string> moving;
@@ -54,16 +67,28 @@ std::vector<std::string> worth_a_start(const SearchState& free, const DataSet& g
   if (!rest.ok) return {};
   const BlockScore score(*free.evidence, {best.left});
   const LeftSums left = left_sums(left_rows(*free.evidence, rest, best.weights));
-  const auto states = static_cast<double>(model.free_initial_states().size());
   for (const int r : free.evidence->recordings()) {
     const std::string& name = model.recording(r).name;
-    if (std::find(moving.begin(), moving.end(), name) != moving.end()) continue;
+    if (contains(moving, name)) continue;
     const double gain = score.fit_of(best.left, r) - score.fit_of(left, r);
-    const double price = 0.5 * states * std::log(std::max(score.n_eff(r), 2.0));
-    if (gain > price) moving.push_back(name);
+    if (gain > price_of_start(model, score, r)) moving.push_back(name);
   }
   return moving;
 }
+
+/// A model that was found, fitted anew where these recordings begin anywhere.
+struct BeganAnew {
+  BeganAnew(const FitSetting& setting, const TableModel& model, const std::vector<std::string>& moving)
+      : free(setting.state.user, with_starts(*setting.state.data, moving), setting.state.registry,
+             setting.state.effects, setting.state.options) {
+    fit_base(free);
+    FitSetting anew(free, setting.numbers);
+    anew.score = setting.score;
+    fitted = refitted(anew, free.context, model, model.numbers);
+  }
+  SearchState free;
+  TableModel fitted;
+};
 
 }  // namespace
 
@@ -95,10 +120,9 @@ Nulls fit_nulls(const FitSetting& setting, int renewals) {
 
 std::vector<std::string> begin_in_motion(const Diagram& diagram, const DataSet& data, const Registry& registry,
                                          const Effects& effects, const DiscoverOptions& options) {
-  Discovery may_move;
-  may_move.found_starts = without_stated_start(data);
-  if (may_move.found_starts.empty()) return {};
-  SearchState free(diagram, as_found(data, may_move), registry, effects, options);
+  const auto may_move = without_stated_start(data);
+  if (may_move.empty()) return {};
+  SearchState free(diagram, with_starts(data, may_move), registry, effects, options);
   fit_base(free);
   if (free.base_model->free_initial_states().empty()) return {};
   std::vector<std::string> moving;
@@ -110,22 +134,23 @@ std::vector<std::string> begin_in_motion(const Diagram& diagram, const DataSet& 
   return moving;
 }
 
-std::vector<std::string> begin_in_motion_beside(const FitSetting& setting, const TableModel& found) {
+std::vector<std::string> begin_in_motion_beside(const FitSetting& setting, const TableModel& found,
+                                                const TableModel& than, double more) {
   const SearchState& state = setting.state;
   const auto may_move = without_stated_start(*state.data);
-  if (may_move.empty()) return {};
-  const NoiseModel weights = weights_of(setting, found);
-  const FitContext fits = context_for(setting, state.context, weights, found.numbers);
-  const DataModel model = searched_model(fits, found.model.program, Effort::full);
-  Trial values;
-  for (const auto& v : found.model.of_recordings)
-    values.push_back({parameter_index(*found.model.program, v.path), v.value, v.recording});
-  std::vector<std::string> moving;
-  for (const auto& b : begin_elsewhere(model, weights, found.model.prediction, values, state.evidence->recordings()))
-    if (const auto& name = model.recording(b.recording).name;
-        std::find(may_move.begin(), may_move.end(), name) != may_move.end())
-      moving.push_back(name);
-  return moving;
+  if (may_move.empty() || found.model.program->n_x == 0) return {};
+  const BeganAnew all(setting, found, may_move);
+  if (!all.fitted.ok() || all.free.base_model->free_initial_states().empty()) return {};
+  const auto moving = worth_a_start(all.free, *state.data, all.fitted);
+  if (moving.empty()) return {};
+  const BeganAnew some(setting, found, moving);
+  if (!some.fitted.ok()) return {};
+  const BlockScore score(*some.free.evidence, {some.fitted.left, than.left});
+  double gain = score_of(score, some.fitted) - score_of(score, than);
+  for (const int r : some.free.evidence->recordings())
+    if (contains(moving, some.free.base_model->recording(r).name))
+      gain -= price_of_start(*some.free.base_model, score, r);
+  return gain > more ? moving : std::vector<std::string>{};
 }
 
 }  // namespace hysteron

@@ -27,8 +27,9 @@ std::vector<std::string> begin_in_motion(const Diagram& diagram, const DataSet& 
                                          const Effects& effects, const DiscoverOptions& options);
 
 /// The same of those that are taken to begin at rest, beside what was found: a start may show only once what acts
-/// strongest is known. What the model lacks still is told from a start by where else it is (begin_elsewhere()).
-std::vector<std::string> begin_in_motion_beside(const FitSetting& setting, const TableModel& found);
+/// strongest is known. None where the score, less what these starts cost, is not by `more` above that of `than`.
+std::vector<std::string> begin_in_motion_beside(const FitSetting& setting, const TableModel& found,
+                                                const TableModel& than, double more);
 
 /// Numbers of the user's model that may be let go, as written [SI]; empty where they are exact.
 std::map<std::string, double> numbers_not_exact(const SearchState& state);

@@ -56,6 +56,8 @@ class Selection {
   bool claim_of_last_round();
   /// This term of the best model (see terms_of) leaves it. False, and it stays, where the rest cannot be fitted.
   bool leave(const std::vector<std::size_t>& term);
+  /// The best model without a term of it, fitted from where it stands with it.
+  TableModel rest_without(const std::vector<std::size_t>& term);
   /// Those that are hidden, in place of an effect that stands alone.
   std::vector<Addition> hidden_in_place_of(const Effect& effect);
 
@@ -80,7 +82,6 @@ class Selection {
   TableModel others_as_they_are(const std::vector<std::size_t>& term) const;
   std::vector<Addition> take_hidden(const Effect& effect);
   void fit_on(const TableModel& rest, std::vector<Addition>& rivals);
-  TableModel rest_without(const std::vector<std::size_t>& term);
   bool leave_out();
   std::vector<Addition> by_laws(const TableModel& on, const std::function<bool(const Addition&, const Law&)>& takes);
   std::vector<Addition> by_other_laws(const std::vector<std::size_t>& term);

@@ -29,7 +29,7 @@ class StartsTest : public Discoveries {
     return d;
   }
   /// Driven by slow sines of which this share is read without its sign, begun so far [m] from where a rest would be.
-  static DataSet begun(const std::vector<double>& off, double rectified) {
+  static DataSet begun(const std::vector<double>& off, double rectified, double time_constant = 1) {
     std::vector<Recording> list;
     for (std::size_t r = 0; r < off.size(); ++r) {
       const auto t = rows(1200, 0.05);
@@ -43,7 +43,7 @@ class StartsTest : public Discoveries {
         constexpr int steps = 50;
         for (int i = 0; k + 1 < t.size() && i < steps; ++i) {  // by the middle of each step: to 1e-6 of it
           const double v = u[k] + (u[k + 1] - u[k]) * (i + 0.5) / steps, h = 0.05 / steps;
-          x += h * ((1 - rectified) * v + rectified * std::abs(v) - x) / (1 + h / 2);
+          x += h * ((1 - rectified) * v + rectified * std::abs(v) - x) / (time_constant + h / 2);
         }
       }
       Recording one = recording(std::to_string(r) + ".csv", r < 2 ? Role::train : Role::validate, t, u, std::move(y));
@@ -67,6 +67,36 @@ TEST_F(StartsTest, ThatAnEffectHidesAreFoundOnceItIsKnown) {
   ASSERT_EQ(d.steps.size(), 1U) << tried(d);
   EXPECT_EQ(d.steps[0].winner.effect, "rectification") << tried(d);
   EXPECT_LT(d.final_error.rms_validate, 1.06 * noise_of_sensor) << tried(d);  // rms of 1200 rows: 2 %
+}
+
+// Of a stage of 20 s a recording of 60 s is too short to show that the start is the only place that is wrong.
+TEST_F(StartsTest, OfShortRecordingsAreFoundOnceTheEffectIsKnown) {
+  const DataSet data = begun({0.012, 0, -0.012}, 0.1, 20);
+  DiscoverOptions options;
+  options.only = {"rectification", "creep", "sensor_nonlinearity", "sensor_lag"};
+  EXPECT_LT(begin_in_motion(slow(20), data, registry, effects, options).size(), 2U) << "nothing is hidden here";
+  const Discovery d = discover(slow(20), data, registry, effects, options);
+  EXPECT_EQ(d.found_starts, (std::vector<std::string>{"0.csv", "2.csv"})) << tried(d);
+  ASSERT_EQ(d.steps.size(), 1U) << tried(d);
+  EXPECT_EQ(d.steps[0].winner.effect, "rectification") << tried(d);
+}
+
+// Switched on before the recording, the device settles as its temperature does.
+TEST_F(StartsTest, ThatPassForAnEffectAreFoundInItsPlace) {
+  DataSet data = begun({0, 0.01, 0}, 0.1, 8);
+  for (std::size_t r = 0; r < data.recordings.size(); ++r) {
+    Recording& one = data.recordings[r];
+    one.units["T"] = parse_unit("degC");
+    for (const double t : one.t) one.columns["T"].push_back(298 + (r == 1 ? 6 * std::exp(-t / 8) : 0.0));
+  }
+  data.notes["T"].to = "T";
+  DiscoverOptions options;
+  options.only = {"rectification", "thermal_expansion"};
+  EXPECT_TRUE(begin_in_motion(slow(8), data, registry, effects, options).empty()) << "nothing is hidden here";
+  const Discovery d = discover(slow(8), data, registry, effects, options);
+  EXPECT_EQ(d.found_starts, (std::vector<std::string>{"1.csv"})) << tried(d);
+  ASSERT_EQ(d.steps.size(), 1U) << tried(d);
+  EXPECT_EQ(d.steps[0].winner.effect, "rectification") << tried(d);
 }
 
 TEST_F(StartsTest, AtRestStayThereBesideAnEffect) {
