@@ -18,8 +18,7 @@ std::size_t place_of(const std::vector<Law>& laws, const std::string& name) {
 
 }  // namespace
 
-/// The best model without a term, fitted from where it stands with it. Of a single term that is the user's own model
-/// from other numbers than it had been searched from.
+/// Of a single term that is the user's own model from other numbers than it had been searched from.
 TableModel Selection::rest_without(const std::vector<std::size_t>& term) {
   TableModel rest = without_term(setting_, state_.context, best_, term);
   if (rest.ok()) rest = refitted(setting_, state_.context, rest, best_.numbers);
@@ -193,8 +192,8 @@ bool Selection::in_two() {
   return false;
 }
 
-/// In the place of a term a look-alike, what its law could hold besides its own, or, where more than noise is left,
-/// another of its laws, that explains more; what asks for less to be believed where it explains as much.
+/// In the place of a term a look-alike, what its law could hold besides its own, or another of its laws, that explains
+/// more; what asks for less to be believed where it explains as much.
 bool Selection::exchange() {
   const auto terms = terms_of(best_.model);
   const auto take_better = [&](const Effect& standing, const std::vector<Addition>& rivals) {
@@ -211,8 +210,7 @@ bool Selection::exchange() {
   for (std::size_t i = 0; i + 1 < terms.size(); ++i) {
     const Effect& standing = *best_.model.placed[terms[i].front()].effect;
     if (take_better(standing, in_place_of(terms[i]))) return true;
-    if (score().over_noise(best_.left_at_last()) > rules::near_noise && take_better(standing, by_other_laws(terms[i])))
-      return true;
+    if (take_better(standing, by_other_laws(terms[i]))) return true;
   }
   return false;
 }

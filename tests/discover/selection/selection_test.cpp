@@ -3,6 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+#include <set>
+#include <string>
+
 #include "tests/discover/discoveries.h"
 #include "tests/discover/synthetic.h"
 
@@ -76,6 +81,29 @@ TEST_F(Selections, WhatHasBeenClaimedIsNotClaimedOnceMore) {
   EXPECT_EQ(terms, 1) << "its round was claimed again and again";
   ASSERT_EQ(selection.best().model.placed.size(), 1U);
   EXPECT_FALSE(selection.claim_of_last_round());
+}
+
+// Under a line of the mains of ten times the noise only the square of a curve shows. Once the line is known the cube, a
+// third of the noise, does: another law of the curve, and no further effect.
+TEST_F(Selections, OfWhatStandsAnotherLawMayShowOnceMoreIsKnown) {
+  std::vector<Recording> list;
+  std::uint64_t seed = 6200;
+  for (const Role role : {Role::train, Role::train, Role::validate}) {
+    const auto t = rows(1500, 0.002);
+    auto u = several_sines(t, 2, {0.7, 2.1});
+    for (double& v : u) v -= 1;
+    auto y = noise(t.size(), 1e-3, 0, seed);
+    for (std::size_t k = 0; k < y.size(); ++k)
+      y[k] += u[k] + 0.1 * u[k] * u[k] - 0.002 * u[k] * u[k] * u[k] + 0.01 * std::sin(100 * std::numbers::pi * t[k]);
+    list.push_back(recording(std::to_string(seed++), role, t, u, y));
+    list.back().start_is_stated = true;
+  }
+  const Discovery d = discovered(plain_gain(), data_set(std::move(list), 1e-3, 0),
+                                 {"sensor_nonlinearity", "mains_interference", "saturation", "calibration"});
+  std::set<std::string> laws;
+  for (const auto& step : d.steps) laws.insert(step.winner.law);
+  EXPECT_EQ(laws, (std::set<std::string>{"cubic", "one line"})) << tried(d);
+  EXPECT_LT(d.final_error.rms_validate, 1.03e-3) << tried(d);  // rms of 1500 rows: 2 %
 }
 
 }  // namespace
