@@ -39,7 +39,7 @@ Law parts(const Excitation& at, int n) {
     time.path = element("times", k);
     time.start = first_time(at, k);
     time.lower = at.shortest_step / 10;  // as good as at once
-    time.upper = 30 * at.longest_recording;
+    time.upper = 3 * at.longest_recording;  // behind that nothing but a slope is seen
     time.log_scale = true;
     time.scan = per_decade(at.longest_recording / 300, 3 * at.longest_recording, n == 1 ? 2 : 1.5);
     time.plausible_upper = 7200;
@@ -95,6 +95,13 @@ Effect thermal_expansion() {
     return text;
   };
   e.laws = [](const Excitation& at) { return std::vector<Law>{parts(at, 1), parts(at, 2)}; };
+  e.implausible = [](const Law& law, const std::vector<double>& values, const Excitation&) -> std::string {
+    const std::size_t parts = values.size() / 2;
+    for (std::size_t k = parts; k < 2 * parts; ++k)
+      if (values[k] > 0.99 * law.free[k].upper)
+        return "a part would be warming up three times as long as any recording lasts: what is seen of it is a drift";
+    return "";
+  };
   e.seen_by_degrees = true;
   e.unseen = [](const Excitation& at) -> std::string {
     if (!at.from_data) return "";
