@@ -322,10 +322,15 @@ namespace {
 const std::vector<Unit>& named_units() {
   static const std::vector<Unit> all = [] {
     std::vector<Unit> units;
-    for (const char* text :
-         {"Hz",  "N",       "V",         "N m", "W",   "Pa",  "C",   "ohm", "F",   "H",     "Wb",   "T",
-          "N/m", "N m/rad", "N m s/rad", "N/V", "N/A", "V/s", "V/m", "m/V", "1/V", "1/V^2", "1/V^4"})
+    for (const char* text : {"Hz", "N", "V", "N m", "W", "Pa", "C", "ohm", "F", "H", "Wb", "T", "N/m", "N m/rad",
+                             "N m s/rad", "N/V", "N/A", "V/m", "m/V"})
       units.push_back(parse_unit(text));
+    // What curves, springs that stiffen and limits of a rate make of a signal.
+    for (const std::string signal : {"V", "N", "Pa"}) {
+      units.push_back(parse_unit(signal + "/s"));
+      units.push_back(parse_unit("1/" + signal));
+      for (const char* power : {"2", "3", "4"}) units.push_back(parse_unit("1/" + signal + "^" + power));
+    }
     return units;
   }();
   return all;

@@ -93,6 +93,20 @@ TEST_F(MoreEffects, ThermalExpansionIsNamedWithItsDelayAndBringsTheColumnIn) {
   EXPECT_EQ(without.blocks.names(), plain_gain().blocks.names());
 }
 
+TEST_F(MoreEffects, AnExpansionThatOutlastsThreeRecordingsIsADrift) {
+  Excitation at;
+  at.longest_recording = 100;  // s
+  const Effect& expansion = effects.get("thermal_expansion");
+  for (const auto& law : expansion.laws(at)) {
+    std::vector<double> values;
+    for (const auto& p : law.free) values.push_back(p.start);
+    EXPECT_EQ(expansion.implausible(law, values, at), "") << law.name;
+    const std::size_t last = 2 * (values.size() / 2) - 1;  // coefficients, times [s], perhaps a reference
+    values[last] = 301;
+    EXPECT_NE(expansion.implausible(law, values, at), "") << law.name;
+  }
+}
+
 TEST_F(MoreEffects, AGainThatFollowsTheTemperatureIsNoExpansion) {
   const auto data = with_temperature(12, 2e-3, [](const auto&, const auto& u, const auto& warm) {
     std::vector<double> y;

@@ -105,8 +105,8 @@ TEST(Units, OthersAreReadFromTheTable) {
 }
 
 TEST(Units, OfValuesThatNobodyGaveOneAreCalledAsEngineersDo) {
-  for (const char* text :
-       {"Hz", "N", "V", "N m", "W", "Pa", "ohm", "F", "H", "T", "N/m", "N m/rad", "N m s/rad", "V/s", "m/V", "1/V^2"})
+  for (const char* text : {"Hz", "N", "V", "N m", "W", "Pa", "ohm", "F", "H", "T", "N/m", "N m/rad", "N m s/rad", "V/s",
+                           "m/V", "1/V^2", "Pa/s", "1/N^3"})
     EXPECT_EQ(si_unit(parse_unit(text).dimension).text, text);
   EXPECT_EQ(si_unit(parse_unit("mJ").dimension).text, "N m") << "a torque is a signal";
   EXPECT_EQ(si_unit(parse_unit("um/s^2").dimension).text, "m/s^2") << "what has no name is made of base units";
