@@ -260,8 +260,8 @@ void tell_fitted_to_all(SearchState& state, const Told& told) {
     return fmt::format("{}", fmt::join(names, ", "));
   };
   state.d.warnings.push_back(fmt::format(
-      "the numbers of what was found were fitted to {0} too, for {1} (role \"train\") does not determine them, and no "
-      "other recording judges them. Record more that moves like {0}, and give it the role \"train\"",
+      "the numbers of what was found were fitted to {0} too, for the rows of {1} (role \"train\") do not determine "
+      "them, and no other recording judges them. Record more that moves like {0}, and give it the role \"train\"",
       of_role(Role::validate), of_role(Role::train)));
 }
 
