@@ -53,7 +53,7 @@ TEST_F(ToldTest, WhatOnlyRecordingsToJudgeShowIsFittedToThemTooAndSaysSo) {
     EXPECT_LT(d.final_error.rms_validate, 1.05 * rms_of_noise) << tried(d);
     EXPECT_NE(d.headline.find("recordings to judge (fitted to as well)"), std::string::npos) << d.headline;
     const auto says = [](const std::string& w) {
-      return w.starts_with("the numbers of what was found were fitted to 2.csv too, for 0.csv, 1.csv");
+      return w.starts_with("the numbers of what was found were fitted to 2.csv too, for the rows of 0.csv, 1.csv");
     };
     EXPECT_TRUE(std::any_of(d.warnings.begin(), d.warnings.end(), says));
   }
