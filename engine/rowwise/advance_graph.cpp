@@ -122,7 +122,7 @@ class Builder {
       int d = 0;
       if (loop &&
           std::any_of(component.begin(), component.end(), [&](int b) { return role(b) != AdvanceRole::linear; })) {
-        for (const int b : component) refuse(block(b), why_not_looped(b));
+        for (const int b : component) refuse(block(b), why_not_looped(b, component));
         for (const int b : component) role(b) = AdvanceRole::looped;
         graph_.loops.push_back(component);
       }
@@ -139,12 +139,20 @@ class Builder {
 
   bool is_bent(int b) { return role(b) == AdvanceRole::nonlinear || role(b) == AdvanceRole::looped; }
 
-  std::string why_not_looped(int b) {
+  /// What jumps with a mode moves rate-independent states along a path; a loop follows those of its inputs only.
+  bool jumps_move_states(const std::vector<int>& loop) const {
+    return std::any_of(loop.begin(), loop.end(), [&](int b) {
+      return block(b).sizes.states > 0 && block(b).kernel->declaration.is_rate_independent;
+    });
+  }
+
+  std::string why_not_looped(int b, const std::vector<int>& component) {
     const auto in_loop = [&](const char* what) {
       return fmt::format("{} \"{}\" {} and stands in a feedback loop", type_of(block(b)), block(b).path, what);
     };
     if (role(b) == AdvanceRole::momentary) return in_loop("follows a function of time");
-    if (block(b).kernel->has_modes()) return in_loop("changes its mode at events");
+    if (block(b).kernel->has_modes() && (block(b).kernel->guard_wants_rate || jumps_move_states(component)))
+      return in_loop("changes its mode at events");
     if (block(b).history_index >= 0) return in_loop("is a dead time");
     for (const Loop& loop : program_.loops)
       if (std::find(loop.blocks.begin(), loop.blocks.end(), b) != loop.blocks.end())

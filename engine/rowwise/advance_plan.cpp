@@ -113,6 +113,7 @@ AdvancePlan::LoopedPart AdvancePlan::looped_part(const std::vector<int>& blocks)
     for (int o = 0; o < b.sizes.outputs; ++o) part.outputs.push_back(b.y_begin + o);
     for (int i = 0; i < b.sizes.states; ++i) part.states.push_back(b.x_begin + i);
     if (b.sizes.memory > 0) part.memory.push_back(block_in_loop);
+    if (b.kernel->has_modes()) part.modal.push_back(block_in_loop);
     part.follows_jumps = part.follows_jumps || b.sizes.memory > 0 || rate_independent[at(block_in_loop)] != 0;
     for (const int s : b.source)
       if (!inside(block_of(s)) && std::find(part.inputs.begin(), part.inputs.end(), s) == part.inputs.end())

@@ -21,14 +21,13 @@ struct AdvancePlan {
     std::vector<int> linear_behind, nonlinear_behind, loops_behind;
   };
 
-  /// A feedback loop with nonlinear blocks: its states move together, by the Runge-Kutta formula, along the program's
-  /// own steps.
+  /// A feedback loop with nonlinear blocks: advance_loop.h.
   struct LoopedPart {
     std::vector<int> blocks;
     std::vector<Step> derivatives, values;
     std::vector<int> inputs, outputs;  ///< signals that it reads; all signals that it makes
     std::vector<int> states;           ///< places in the states of the program
-    std::vector<int> memory;           ///< blocks
+    std::vector<int> memory, modal;    ///< blocks that remember; that have modes
     bool follows_jumps = false;        ///< something in it remembers the way of a jump
   };
 

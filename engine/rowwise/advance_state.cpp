@@ -27,12 +27,8 @@ AdvanceState::AdvanceState(const AdvancePlan& plan)
   for (const auto& b : program_.blocks)
     scratch = std::max(scratch, RowsView::scratch_size(b.n_u, b.sizes.states, b.sizes.memory, b.sizes.outputs));
   scratch_.resize(scratch);
-  for (const auto& loop : plan.loops) {
-    loop_inputs_.emplace_back(loop.inputs.size());
-    loop_now_.resize(std::max(loop_now_.size(), loop.inputs.size()));
-    loop_states_.resize(std::max(loop_states_.size(), loop.states.size()));
-    loop_work_.resize(std::max(loop_work_.size(), 5 * loop.states.size()));
-  }
+  loops_.reserve(plan.loops.size());
+  for (const auto& loop : plan.loops) loops_.emplace_back(plan, loop, run, work, x);
   for (std::size_t i = 0; i < input_places_.size(); ++i) input_places_[i] = inputs_.data() + 2 * i + 1;
   for (std::size_t i = 0; i < output_places_.size(); ++i) output_places_[i] = y.data() + i;
 }
@@ -100,63 +96,6 @@ void AdvanceState::remember_inputs(int block) {
   for (int i = 0; i < b.n_u; ++i) inputs_[2 * at(b.u_begin + i)] = y[at(b.source[at(i)])];
 }
 
-/// One step; begin, end: shares of the way of the inputs; their rates are their way over `duration`.
-void AdvanceState::loop_step(const AdvancePlan::LoopedPart& part, const std::vector<double>& before, double begin,
-                             double end, double length, double duration) {
-  const std::size_t n = part.states.size();
-  for (std::size_t i = 0; i < n; ++i) loop_states_[i] = x[at(part.states[i])];
-  for (std::size_t i = 0; i < part.inputs.size(); ++i)
-    work.rate[at(part.inputs[i])] = (loop_now_[i] - before[i]) / duration;
-  block_detail::runge_kutta(static_cast<int>(n), loop_states_.data(), length, loop_work_.data(),
-                            [&](double c, const double* states, double* rates) {
-                              const double place = begin + c * (end - begin);
-                              for (std::size_t i = 0; i < part.inputs.size(); ++i)
-                                y[at(part.inputs[i])] =
-                                    place == 1 ? loop_now_[i] : before[i] + place * (loop_now_[i] - before[i]);
-                              for (std::size_t i = 0; i < n; ++i) x[at(part.states[i])] = states[i];
-                              steps::run(part.derivatives, program_, work, x.data());
-                              for (std::size_t i = 0; i < n; ++i) rates[i] = work.dx[at(part.states[i])];
-                            });
-  for (std::size_t i = 0; i < n; ++i) x[at(part.states[i])] = loop_states_[i];
-  for (std::size_t i = 0; i < part.inputs.size(); ++i)
-    y[at(part.inputs[i])] = end == 1 ? loop_now_[i] : before[i] + end * (loop_now_[i] - before[i]);
-}
-
-void AdvanceState::loop_values(const AdvancePlan::LoopedPart& part) {
-  steps::run(part.values, program_, work, x.data());
-  for (const int block : part.memory) {
-    const BlockInstance& b = plan_.block(block);
-    std::copy_n(work.m.begin() + b.m_begin, b.sizes.memory, run.m.begin() + b.m_begin);
-  }
-}
-
-void AdvanceState::move_loop(int loop, double h) {
-  const auto& part = plan_.loops[at(loop)];
-  auto& before = loop_inputs_[at(loop)];
-  bool changed = false;
-  for (std::size_t i = 0; i < part.inputs.size(); ++i) {
-    loop_now_[i] = y[at(part.inputs[i])];
-    changed = changed || loop_now_[i] != before[i];
-  }
-  if (h > 0) {
-    loop_step(part, before, 0, 1, h, h);
-  } else if (changed && part.follows_jumps) {
-    const int pieces = std::max(path_steps_, jump_pieces);
-    PathPoint path;  // time stands still: states that count it do, too
-    path.jumping = plan_.jumping.data();
-    path.rate_independent = plan_.rate_independent.data();
-    work.path = &path;
-    for (int i = 0; i < pieces; ++i) {
-      const double begin = static_cast<double>(i) / pieces, end = i + 1 == pieces ? 1.0 : (i + 1.0) / pieces;
-      loop_step(part, before, begin, end, jump_duration / pieces, jump_duration);
-      if (i + 1 < pieces) loop_values(part);
-    }
-    work.path = nullptr;
-  }
-  loop_values(part);
-  std::copy_n(loop_now_.begin(), before.size(), before.begin());
-}
-
 /// Before the first instant: a dead time has its input always been, and nothing is remembered yet.
 void AdvanceState::foresee(int block) {
   if (plan_.block(block).history_index >= 0)
@@ -185,7 +124,7 @@ void AdvanceState::start(std::span<const int> due, double t, double branch, bool
       remember_inputs(b);  // nothing moves at the start
       start_block(b, t, !instant);
     }
-    for (const int i : level.loops) start_loop(i, !instant);
+    for (const int i : level.loops) loops_[at(i)].start(!instant);
   }
   if (plan_.has_histories) rest_histories(t, !instant);
   for (const int b : plan_.momentary) evaluate(b);
@@ -209,7 +148,7 @@ void AdvanceState::begin_behind(double t, bool accept) {
       remember_inputs(b);
       start_block(b, t, accept);
     }
-    for (const int i : level.loops) start_loop(i, accept);
+    for (const int i : level.loops) loops_[at(i)].start(accept);
   }
 }
 
@@ -252,21 +191,11 @@ void AdvanceState::rest_histories(double t, bool accept) {
     for (const auto& level : plan_.levels) {
       for (const int i : level.linear) parts[at(i)].refresh(y);
       for (const int b : level.nonlinear) start_block(b, t, accept);
-      for (const int i : level.loops) start_loop(i, accept);
+      for (const int i : level.loops) loops_[at(i)].start(accept);
     }
   }
   if (accept)
     for (const int b : late) look_back(b, t);
-}
-
-/// Nothing moves at the start.
-void AdvanceState::start_loop(int loop, bool accept) {
-  const auto& part = plan_.loops[at(loop)];
-  for (std::size_t i = 0; i < part.inputs.size(); ++i) loop_inputs_[at(loop)][i] = y[at(part.inputs[i])];
-  if (accept)
-    loop_values(part);
-  else
-    steps::run(part.values, program_, work, x.data());
 }
 
 void AdvanceState::sample(std::span<const int> due, double t, Sampling& sampling) {

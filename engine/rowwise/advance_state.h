@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/events/sampling.h"
+#include "engine/rowwise/advance_loop.h"
 #include "engine/rowwise/advance_plan.h"
 
 namespace hysteron {
@@ -35,9 +36,8 @@ class AdvanceState {
 
   /// Remembers and asks the past of a dead time, whose input stands in y.
   void look_back(int block, double t);
-  /// A loop with nonlinear blocks moves while its inputs go from their values at the last point to those in y; h = 0:
-  /// they jump.
-  void move_loop(int loop, double h);
+  /// A loop with nonlinear blocks: AdvanceLoop::move.
+  void move_loop(int loop, double h) { loops_[static_cast<std::size_t>(loop)].move(h, path_steps_); }
   int path_steps_of(int block) const { return plan_.is_rate_independent(block) ? path_steps_ : 0; }
 
   // Of the run, read and written row by row, too (advance_rows.h).
@@ -53,16 +53,12 @@ class AdvanceState {
   void steps_value(int block);
   void follow(int block, double t, double h);
   void move_states(int block, double h);
-  void loop_step(const AdvancePlan::LoopedPart& part, const std::vector<double>& before, double begin, double end,
-                 double length, double duration);
-  void loop_values(const AdvancePlan::LoopedPart& part);
   void remember_inputs(int block);
   void foresee(int block);
   void start_block(int block, double t, bool accept);
   void rest_histories(double t, bool accept);
   void begin_behind(double t, bool accept);
   void sample_until_at_rest(std::span<const int> due, double t, const std::vector<double>& memory, Sampling& sampling);
-  void start_loop(int loop, bool accept);
   void sample(std::span<const int> due, double t, Sampling& sampling);
   void pass_on(double t, bool with_delays);
   void pass_on_samples(double t, bool with_delays);
@@ -78,9 +74,7 @@ class AdvanceState {
   std::vector<double> inputs_, scratch_;
   std::vector<const double*> input_places_;
   std::vector<double*> output_places_;
-  // Of loops: their inputs at the last point and now, their states.
-  std::vector<std::vector<double>> loop_inputs_;
-  std::vector<double> loop_now_, loop_states_, loop_work_;
+  std::vector<AdvanceLoop> loops_;
 };
 
 }  // namespace hysteron
