@@ -94,6 +94,10 @@ struct Pid {
     v.out[filtered] = (differentiated(v) - v.x[filtered]) / pid::filter_of(g, v.parameter(filter));
     if (has_command(v)) v.out[command] = pid::limited(T{-v.parameter(rate)}, v.parameter(rate), asked(v, w.command));
   }
+  /// Without limits back_calculation has nothing to do.
+  static bool is_linear_at(const View<double>& v) {
+    return std::isinf(v.parameter(lower)) && std::isinf(v.parameter(upper)) && !has_command(v);
+  }
   /// Its limits; the ends of the band in which clamping fades out; the limits of the rate.
   static void kinks(const View<double>& v) {
     const auto w = wanted(v);

@@ -28,6 +28,10 @@ struct Transmission {
     const T load = transmission::load(contact(p), at.twist, at.rate);
     return {load, transmission::felt(load, at.ratio, p.efficiency, speed)};
   }
+  template <class P>
+  static bool is_linear_at(const P& p) {
+    return p.gap == 0 && p.efficiency == 1;
+  }
   /// The ends of the gap, the loss of contact at each; where there are losses, also a load of zero.
   template <class P, class In>
   static std::array<double, 5> kinks(const P& p, const In& in) {
@@ -105,6 +109,7 @@ struct BallScrew : Transmission<BallScrew> {
   template <class T>
   using Out = ForceAndTorque<T>;
   static void describe(BlockSpec<BallScrew>& spec);
+  static bool is_linear_at(const Params<double>& p) { return Transmission::is_linear_at(p) && p.wobble == 0; }
   /// The nut is where the thread is: pitch (1 + pitch_error) angle/(2 pi) + wobble sin(angle + wobble_phase).
   template <class T>
   static Twist<T> twist(const Params<T>& p, const In<T>& in) {

@@ -127,10 +127,7 @@ std::vector<Addition> Selection::list(int step) {
   const auto names = names_of(best_.model);
   if (static_cast<int>(names.size()) >= state_.options.max_steps)
     std::erase_if(rivals, [&](const Addition& r) { return !names.contains(r.tried.effect); });
-  for (auto& r : rivals) {
-    r.slowness = slowness(state_, r.tried);
-    for (auto& law : r.tried.laws) law.apart = law.apart && !stops_in_a_loop(state_, r.tried, law);
-  }
+  for (auto& r : rivals) r.slowness = slowness(state_, r.tried);
   return rivals;
 }
 

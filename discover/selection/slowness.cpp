@@ -1,6 +1,5 @@
 #include "discover/selection/slowness.h"
 
-#include <algorithm>
 #include <set>
 #include <string>
 #include <vector>
@@ -38,14 +37,6 @@ int slowness(const SearchState& state, const TriedEffect& t) {
     return 0;
   const Kernel* law = state.registry.find(t.laws.front().block.type);
   return law != nullptr && (law->advance != nullptr || law->reach_back != nullptr || law->uses_time) ? slowest : 1;
-}
-
-bool stops_in_a_loop(const SearchState& state, const TriedEffect& t, const Law& law) {
-  const Kernel* kernel = state.registry.find(law.block.type);
-  if (kernel == nullptr || !kernel->has_modes()) return false;
-  const Wiring w(state.current.diagram, state.registry);
-  const auto outputs = w.outputs_of(t.place.at);
-  return std::any_of(outputs.begin(), outputs.end(), [&](const auto& signal) { return is_in_a_loop(w, signal); });
 }
 
 }  // namespace hysteron

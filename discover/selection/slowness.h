@@ -11,8 +11,4 @@ inline constexpr int slowest = 2;  ///< of slowness(): memory, or a past, inside
 /// elements of memory in a block that moves.
 int slowness(const SearchState& state, const TriedEffect& t);
 
-/// Does the law change modes inside a loop, as dry friction does? No row is passed there at once, each stop is located:
-/// ten times as slow as by a law of the effect that is smooth, which says first whether it may be that effect.
-bool stops_in_a_loop(const SearchState& state, const TriedEffect& t, const Law& law);
-
 }  // namespace hysteron

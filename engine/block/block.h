@@ -231,6 +231,10 @@ auto kinks_of(const View<double>& v) {
 template <class B>
 inline constexpr bool has_kinks = !std::is_same_v<decltype(kinks_of<B>(std::declval<View<double>>())), Nothing>;
 template <class B>
+bool fixed_is_linear_at(const View<double>& v) {
+  return B::is_linear_at(load<double>(typename Types<B, double>::P{}, v.p));
+}
+template <class B>
 void fixed_kinks(const View<double>& v) {
   const auto kinks = kinks_of<B>(v);
   std::copy(kinks.begin(), kinks.end(), v.out);
@@ -339,6 +343,7 @@ Kernel kernel() {
     if constexpr (requires(const View<double>& v) { B::check_memory(v); }) k.check_memory = &B::check_memory;
     if constexpr (requires { B::uses_time; }) k.uses_time = B::uses_time;
     if constexpr (requires(const View<double>& v) { B::kinks(v); }) k.kinks = &B::kinks;
+    if constexpr (requires(const View<double>& v) { B::is_linear_at(v); }) k.is_linear_at = &B::is_linear_at;
     if constexpr (requires(const RowsView& r) { B::rows(r); })
       k.rows = &B::rows;
     else if (k.update == nullptr && k.guard == nullptr)
@@ -368,6 +373,7 @@ Kernel kernel() {
     k.guard_wants_rate = F::guard_rate;
     if constexpr (F::modes) k.next_mode = &fixed_next_mode<B>;
     if constexpr (has_kinks<B>) k.kinks = &fixed_kinks<B>;
+    if constexpr (requires(typename Y::P p) { B::is_linear_at(p); }) k.is_linear_at = &fixed_is_linear_at<B>;
     if constexpr (requires(typename Y::P p) { B::initial_mode(p); }) k.initial_mode = &fixed_initial_mode<B>;
     if constexpr (requires(typename Y::P p, typename Y::I i) { B::rest(p, i); }) k.rest = &fixed_rest<B>;
     if constexpr (requires(typename Y::P p) { B::initial(p); }) k.initial_states = &fixed_initial_states<B>;

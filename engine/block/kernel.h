@@ -192,7 +192,10 @@ struct Kernel : Functions<double> {
   double (*reach_back)(const View<double>&) = nullptr;       ///< how much past a history block needs [s]
   Call kinks = nullptr;  ///< out: Sizes::kinks numbers, each of which changes its sign where the law has a kink or a
                          ///< jump that is no change of mode (of parameters, states and inputs)
-  void (*rows)(const RowsView&) = nullptr;  ///< neither sampled nor a source: made by block.h
+  bool (*is_linear_at)(const View<double>&) = nullptr;  ///< with these parameters outputs and rates are affine in
+                                                        ///< (states, inputs); where Declaration::is_linear is not true.
+                                                        ///< False where a parameter that decides is NaN
+  void (*rows)(const RowsView&) = nullptr;              ///< neither sampled nor a source: made by block.h
   bool uses_time = false;
   std::string (*check)(const View<double>&) =
       nullptr;  ///< "" or what is wrong with these parameter values, and the cure

@@ -199,6 +199,8 @@ struct Run {
   std::vector<double> loop_absolute;   ///< loop_absolute, per tear; see set_loop_accuracy()
   std::vector<SeriesPointer> series;
   std::vector<History> histories;
+  std::vector<int> varied{};  ///< places in p where runs of one task differ: what a value there makes linear
+                              ///< (Kernel::is_linear_at) counts as nonlinear, so that they are computed alike
 };
 
 /// A run at its start: parameters as compiled, states as declared, memory virgin. Inputs of the diagram are still

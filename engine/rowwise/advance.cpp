@@ -54,6 +54,11 @@ bool all_finite(const std::vector<double>& values) {
   return std::all_of(sum.begin(), sum.end(), [](double s) { return s == 0; });
 }
 
+bool are_linear_alike(const Program& program, std::span<const Run* const> runs) {
+  const auto first = linear_at(program, *runs.front());
+  return std::all_of(runs.begin() + 1, runs.end(), [&](const Run* r) { return linear_at(program, *r) == first; });
+}
+
 template <class Work>
 std::string text_of_failure(const Work& work) {
   try {
@@ -86,8 +91,8 @@ struct Advance::Content {
   std::vector<std::unique_ptr<AdvanceState>> beside;
   std::optional<AdvanceRows> wide;
 
-  Content(ProgramPointer program, std::vector<int> signals)
-      : plan(std::move(program), std::move(signals)), state(plan), rows(plan, 1), sampling(*plan.program) {}
+  Content(ProgramPointer program, std::vector<int> signals, const std::vector<bool>& linear_too = {})
+      : plan(std::move(program), std::move(signals), linear_too), state(plan), rows(plan, 1), sampling(*plan.program) {}
 
   /// The sources of a run that starts then; what came as late in the last one is the same.
   std::vector<SeriesPointer> series_of(const Run& run, double start) {
@@ -264,24 +269,39 @@ void Advance::Content::side_by_side(std::span<const Run* const> runs, const Inst
 }
 
 Advance::Advance(ProgramPointer program, std::vector<int> signals)
-    : content_(std::make_unique<Content>(std::move(program), std::move(signals))) {}
+    : content_(std::make_unique<Content>(std::move(program), std::move(signals))), last_(content_.get()) {}
 Advance::~Advance() = default;
 Advance::Advance(Advance&&) noexcept = default;
 Advance& Advance::operator=(Advance&&) noexcept = default;
 
 bool Advance::exact_without_substeps() const { return content_->plan.no_substeps_needed; }
-bool Advance::integrates() const { return content_->plan.integrates; }
+bool Advance::integrates() const { return last_->plan.integrates; }
 bool Advance::passes_rows(const Run& run) const { return content_->plan.is_plain(run); }
-long Advance::samples() const { return content_->state.hits; }
+long Advance::samples() const { return last_->state.hits; }
+
+/// The plan for the numbers of this run.
+Advance::Content& Advance::content_of(const Run& run) {
+  auto linear = linear_at(*content_->plan.program, run);
+  Content* of = content_.get();
+  if (!linear.empty()) {
+    if (!with_linear_ || linear != linear_) {
+      with_linear_ = std::make_unique<Content>(content_->plan.program, content_->plan.signals, linear);
+      linear_ = std::move(linear);
+    }
+    of = with_linear_.get();
+  }
+  last_ = of;
+  return *of;
+}
 
 void Advance::operator()(const Run& run, const Instants& instants, const AdvanceOptions& options,
                          std::vector<std::vector<double>>& values) {
-  content_->one(run, instants, options, values);
+  content_of(run).one(run, instants, options, values);
 }
 
 void Advance::operator()(const Run& run, std::span<const double> instants, const AdvanceOptions& options,
                          std::vector<std::vector<double>>& values) {
-  const auto& known = content_->schedule;
+  const auto& known = content_of(run).schedule;
   const bool same =
       known && std::equal(instants.begin(), instants.end(), known->instants->begin(), known->instants->end());
   (*this)(run, same ? known->instants : std::make_shared<const std::vector<double>>(instants.begin(), instants.end()),
@@ -291,19 +311,20 @@ void Advance::operator()(const Run& run, std::span<const double> instants, const
 std::vector<std::string> Advance::each(std::span<const Run* const> runs, const Instants& instants,
                                        const AdvanceOptions& options,
                                        std::vector<std::vector<std::vector<double>>>& values) {
-  Content& c = *content_;
   constexpr std::size_t lanes = RowsView::most_lanes;
   values.resize(runs.size());
   std::vector<std::string> errors(runs.size());
   for (std::size_t first = 0; first < runs.size();) {
     const std::size_t n = std::min(lanes, runs.size() - first);
     const auto some = runs.subspan(first, n);
+    Content& c = content_of(*some.front());
     // Two runs take less time one after the other than four lanes.
-    if (n + 1 >= lanes && !instants->empty() && c.can_go_side_by_side(some))
+    if (n + 1 >= lanes && !instants->empty() && c.can_go_side_by_side(some) &&
+        are_linear_alike(*content_->plan.program, some))
       c.side_by_side(some, instants, options, std::span(values).subspan(first, n), std::span(errors).subspan(first, n));
     else
       for (std::size_t i = first; i < first + n; ++i)
-        errors[i] = text_of_failure([&] { c.one(*runs[i], instants, options, values[i]); });
+        errors[i] = text_of_failure([&] { (*this)(*runs[i], instants, options, values[i]); });
     first += n;
   }
   return errors;

@@ -53,8 +53,8 @@ class Advance {
   /// block has states.
   bool exact_without_substeps() const;
 
-  /// Some states are not linear, or stand in a loop with nonlinear blocks: where these are stiff no number of substeps
-  /// that pays may suffice.
+  /// Some states of the last run (before any: of some run) are not linear, or stand in a loop with nonlinear blocks:
+  /// where these are stiff no number of substeps that pays may suffice.
   bool integrates() const;
 
   /// Such a run passes many rows at once. It does not where sources that jump (held inputs) meet a dead time, or
@@ -65,7 +65,13 @@ class Advance {
 
  private:
   struct Content;
+  Content& content_of(const Run& run);
+
   std::unique_ptr<Content> content_;
+  // Where blocks are linear at the numbers of a run though not in general (linear_at): the last such plan.
+  std::vector<bool> linear_;
+  std::unique_ptr<Content> with_linear_;
+  const Content* last_ = nullptr;  ///< that advanced the last run; at first the general one
 };
 
 }  // namespace hysteron

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "engine/diagram/index.h"
 #include "engine/program/components.h"
@@ -19,7 +20,7 @@ const std::string& type_of(const BlockInstance& b) { return b.kernel->declaratio
 
 class Builder {
  public:
-  explicit Builder(const Program& program) : program_(program) {}
+  Builder(const Program& program, const std::vector<bool>& linear_too) : program_(program), linear_too_(linear_too) {}
 
   AdvanceGraph operator()() {
     give_roles();
@@ -34,6 +35,11 @@ class Builder {
   const BlockInstance& block(int b) const { return program_.blocks[at(b)]; }
   int block_of(int signal) const { return program_.signals[at(signal)].block; }
   AdvanceRole& role(int b) { return graph_.role[at(b)]; }
+
+  bool is_linear(const BlockInstance& b) const {
+    return b.kernel->declaration.is_linear ||
+           (!linear_too_.empty() && linear_too_[static_cast<std::size_t>(&b - program_.blocks.data())]);
+  }
 
   /// Between the instants: sampled blocks read nothing.
   const std::vector<int>& reads(int b) const {
@@ -78,13 +84,14 @@ class Builder {
   void give_roles() {
     for (const auto& b : program_.blocks) {
       refuse(b, why_not_block(b));
+      graph_.linear.push_back(is_linear(b));
       graph_.late_of.push_back(recording_of(b));
-      graph_.role.push_back(graph_.late_of.back() >= 0        ? AdvanceRole::source
-                            : b.kernel->is_sampled()          ? AdvanceRole::sampled
-                            : is_function_of_time(b)          ? AdvanceRole::momentary
-                            : b.n_u == 0                      ? AdvanceRole::source
-                            : b.kernel->declaration.is_linear ? AdvanceRole::linear
-                                                              : AdvanceRole::nonlinear);
+      graph_.role.push_back(graph_.late_of.back() >= 0 ? AdvanceRole::source
+                            : b.kernel->is_sampled()   ? AdvanceRole::sampled
+                            : is_function_of_time(b)   ? AdvanceRole::momentary
+                            : b.n_u == 0               ? AdvanceRole::source
+                            : is_linear(b)             ? AdvanceRole::linear
+                                                       : AdvanceRole::nonlinear);
     }
     for (const int b : program_.value_order) {
       if (role(b) != AdvanceRole::momentary && role(b) != AdvanceRole::sampled)
@@ -226,12 +233,35 @@ class Builder {
   }
 
   const Program& program_;
+  const std::vector<bool>& linear_too_;
   AdvanceGraph graph_;
 };
 
 }  // namespace
 
-AdvanceGraph advance_graph(const Program& program) { return Builder(program)(); }
+AdvanceGraph advance_graph(const Program& program, const std::vector<bool>& linear_too) {
+  return Builder(program, linear_too)();
+}
+
+std::vector<bool> linear_at(const Program& program, const Run& run) {
+  std::vector<bool> linear;
+  std::vector<double> numbers;
+  for (std::size_t b = 0; b < program.blocks.size(); ++b) {
+    const BlockInstance& block = program.blocks[b];
+    if (block.kernel->is_linear_at == nullptr) continue;
+    auto view = view_of(program, run, static_cast<int>(b));
+    const auto count = block.p_at.back();
+    numbers.assign(view.p, view.p + count);
+    for (const int place : run.varied)
+      if (place >= block.p_begin && place < block.p_begin + count)
+        numbers[at(place - block.p_begin)] = std::numeric_limits<double>::quiet_NaN();
+    view.p = numbers.data();
+    if (!block.kernel->is_linear_at(view)) continue;
+    linear.resize(program.blocks.size(), false);
+    linear[b] = true;
+  }
+  return linear;
+}
 
 std::string changes_mode(const BlockInstance& block) {
   return fmt::format("{} \"{}\" changes its mode at events", type_of(block), block.path);

@@ -22,6 +22,7 @@ struct AdvanceGraph {
   std::string why_not{};                  ///< "" or the block that stands in the way and why; then the rest is empty
   std::string in_the_way{};               ///< path of that block
   std::vector<AdvanceRole> role{};        ///< per block
+  std::vector<bool> linear{};             ///< per block: outputs and rates are affine in (states, inputs)
   std::vector<int> late_of{};             ///< per block: the recorded input that a dead time hands on late; -1 = none
   std::vector<std::vector<int>> loops{};  ///< blocks of each feedback loop with nonlinear blocks
   std::vector<int> depth{};               ///< per block: nonlinear blocks in a row before it, see advance.cpp
@@ -31,7 +32,11 @@ struct AdvanceGraph {
   std::vector<int> hit_signals{};  ///< what these steps read
 };
 
-AdvanceGraph advance_graph(const Program& program);
+/// linear_too: per block (empty: none), what counts as linear beside what is declared so.
+AdvanceGraph advance_graph(const Program& program, const std::vector<bool>& linear_too = {});
+
+/// Per block: linear at the numbers of this run (Kernel::is_linear_at), whatever those are that vary. Empty: none.
+std::vector<bool> linear_at(const Program& program, const Run& run);
 
 /// Why a block with modes is left to an integrator, which finds when they change.
 std::string changes_mode(const BlockInstance& block);

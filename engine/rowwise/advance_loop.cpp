@@ -35,10 +35,13 @@ AdvanceLoop::AdvanceLoop(const AdvancePlan& plan, const AdvancePlan::LoopedPart&
       scratch_(5 * part.states.size()),
       guard_(part.modal.size()) {
   begin_.g = end_.g = guard_;
+  const auto asks_for_rates = [](const Step& step) { return step.order == Order::rate; };
+  if (std::none_of(part.derivatives.begin(), part.derivatives.end(), asks_for_rates)) matrices_.emplace(plan, part);
 }
 
 void AdvanceLoop::start(bool accept) {
   for (std::size_t i = 0; i < before_.size(); ++i) before_[i] = work_.y[at(part_.inputs[i])];
+  if (matrices_) matrices_->bind(run_);
   values();
   if (!accept) return;
   accept_values();
@@ -127,7 +130,7 @@ void AdvanceLoop::step(double begin, double end, double length, double duration)
                             [&](double c, const double* states, double* rates) {
                               put_inputs(begin + c * (end - begin));
                               for (std::size_t i = 0; i < n; ++i) x_[at(part_.states[i])] = states[i];
-                              steps::run(part_.derivatives, program_, work_, x_.data());
+                              derivatives();
                               for (std::size_t i = 0; i < n; ++i) rates[i] = work_.dx[at(part_.states[i])];
                             });
   put_states(states_);
@@ -143,7 +146,20 @@ void AdvanceLoop::put_states(const std::vector<double>& values) {
   for (std::size_t i = 0; i < values.size(); ++i) x_[at(part_.states[i])] = values[i];
 }
 
-void AdvanceLoop::values() { steps::run(part_.values, program_, work_, x_.data()); }
+/// Along the path of a jump time stands still for what is not rate-independent, linear blocks included.
+void AdvanceLoop::derivatives() {
+  if (matrices_ && work_.path == nullptr)
+    matrices_->derivatives(work_, x_.data());
+  else
+    steps::run(part_.derivatives, program_, work_, x_.data());
+}
+
+void AdvanceLoop::values() {
+  if (matrices_)
+    matrices_->values(work_, x_.data());
+  else
+    steps::run(part_.values, program_, work_, x_.data());
+}
 
 void AdvanceLoop::accept_values() {
   for (const int block : part_.memory) {

@@ -1,13 +1,15 @@
 // Decides how one feedback loop with nonlinear blocks moves from point to point: its states together, by the
-// Runge-Kutta formula along the program's own steps; where a block of it changes its mode, the way is cut right behind.
+// Runge-Kutta formula, linear blocks as sums (loop_matrices.h), or, where a law asks for the rate of its input, along
+// the program's own steps; where a block of it changes its mode, the way is cut right behind.
 // Does not decide which blocks are one loop: advance_graph.h. Internal to the exact advance.
 #pragma once
 
-#include <span>
+#include <optional>
 #include <vector>
 
 #include "engine/integrators/root_bracket.h"
 #include "engine/rowwise/advance_plan.h"
+#include "engine/rowwise/loop_matrices.h"
 
 namespace hysteron {
 
@@ -30,6 +32,7 @@ class AdvanceLoop {
   void step(double begin, double end, double length, double duration);
   void put_inputs(double place);
   void put_states(const std::vector<double>& values);
+  void derivatives();
   void values();
   void accept_values();
   bool settle();
@@ -40,6 +43,7 @@ class AdvanceLoop {
   const AdvancePlan& plan_;
   const AdvancePlan::LoopedPart& part_;
   const Program& program_;
+  std::optional<LoopMatrices> matrices_;
   Run& run_;
   Work& work_;
   std::vector<double>& x_;

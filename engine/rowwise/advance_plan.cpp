@@ -10,8 +10,8 @@
 
 namespace hysteron {
 
-AdvancePlan::AdvancePlan(ProgramPointer p, std::vector<int> wanted)
-    : program(std::move(p)), signals(std::move(wanted)), graph(advance_graph(*program)) {
+AdvancePlan::AdvancePlan(ProgramPointer p, std::vector<int> wanted, const std::vector<bool>& linear_too)
+    : program(std::move(p)), signals(std::move(wanted)), graph(advance_graph(*program, linear_too)) {
   if (!graph.why_not.empty())
     fail("not_exact", graph.why_not, "this diagram cannot be advanced row by row exactly", "use the method \"bdf\"");
   find_needed();
@@ -101,6 +101,7 @@ void AdvancePlan::build_levels() {
 AdvancePlan::LoopedPart AdvancePlan::looped_part(const std::vector<int>& blocks) const {
   LoopedPart part;
   part.blocks = blocks;
+  part.outputs = outside_readers(blocks);
   const auto inside = [&](int b) { return std::find(blocks.begin(), blocks.end(), b) != blocks.end(); };
   const auto take = [&](const std::vector<Step>& from, std::vector<Step>& to) {
     for (const Step& step : from)
@@ -110,7 +111,6 @@ AdvancePlan::LoopedPart AdvancePlan::looped_part(const std::vector<int>& blocks)
   take(program->all_values, part.values);
   for (const int block_in_loop : blocks) {
     const BlockInstance& b = block(block_in_loop);
-    for (int o = 0; o < b.sizes.outputs; ++o) part.outputs.push_back(b.y_begin + o);
     for (int i = 0; i < b.sizes.states; ++i) part.states.push_back(b.x_begin + i);
     if (b.sizes.memory > 0) part.memory.push_back(block_in_loop);
     if (b.kernel->has_modes()) part.modal.push_back(block_in_loop);

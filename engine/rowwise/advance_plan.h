@@ -25,7 +25,7 @@ struct AdvancePlan {
   struct LoopedPart {
     std::vector<int> blocks;
     std::vector<Step> derivatives, values;
-    std::vector<int> inputs, outputs;  ///< signals that it reads; all signals that it makes
+    std::vector<int> inputs, outputs;  ///< signals that it reads; those that it makes and others read
     std::vector<int> states;           ///< places in the states of the program
     std::vector<int> memory, modal;    ///< blocks that remember; that have modes
     bool follows_jumps = false;        ///< something in it remembers the way of a jump
@@ -49,8 +49,8 @@ struct AdvancePlan {
   bool has_histories = false;                      ///< some block looks back
   bool has_own_rest = false;  ///< nonlinear states that go to an equilibrium: those of no rate-independent law
 
-  /// Throws Error "not_exact".
-  AdvancePlan(ProgramPointer program, std::vector<int> signals);
+  /// linear_too: as for advance_graph. Throws Error "not_exact".
+  AdvancePlan(ProgramPointer program, std::vector<int> signals, const std::vector<bool>& linear_too = {});
   ~AdvancePlan();
   AdvancePlan(const AdvancePlan&) = delete;
   AdvancePlan& operator=(const AdvancePlan&) = delete;

@@ -30,8 +30,7 @@ AdvanceRows::AdvanceRows(const AdvancePlan& plan, int lanes)
   const std::size_t sources = signals_.size();
   for (const auto& level : plan_.levels)
     for (const int b : level.nonlinear) add(b);
-  for (const auto& loop : plan_.loops)
-    for (const int b : loop.blocks) add(b);
+  for (const auto& loop : plan_.loops) signals_.insert(signals_.end(), loop.outputs.begin(), loop.outputs.end());
   for (const int b : plan_.momentary) add(b);
   for (const auto& part : plan_.parts)
     signals_.insert(signals_.end(), part.output_signals().begin(), part.output_signals().end());

@@ -10,42 +10,6 @@
 #include "engine/program/loop_plan.h"
 
 namespace hysteron {
-namespace {
-
-using BlockMatrices = LinearPart::BlockMatrices;
-
-BlockMatrices read_block(const Program& program, const Run& run, int block) {
-  const BlockInstance& b = program.blocks[at(block)];
-  const int nx = b.sizes.states;
-  const int columns = nx + b.n_u + 1;
-  std::vector<double> x(at(nx)), u(at(b.n_u)), dx(at(nx)), y(at(b.sizes.outputs));
-  BlockMatrices m{Eigen::MatrixXd::Zero(nx, columns), Eigen::MatrixXd::Zero(b.sizes.outputs, columns)};
-  const auto call = [&](int column) {
-    View<double> v = view_of(program, run, block);
-    v.x = x.data();
-    v.u = u.data();
-    v.out = y.data();
-    b.kernel->output(v);
-    m.output.col(column) = Eigen::Map<const Eigen::VectorXd>(y.data(), b.sizes.outputs);
-    if (nx == 0) return;
-    v.out = dx.data();
-    b.kernel->derivative(v);
-    m.derivative.col(column) = Eigen::Map<const Eigen::VectorXd>(dx.data(), nx);
-  };
-  call(columns - 1);
-  for (int i = 0; i < columns - 1; ++i) {
-    double& unit = i < nx ? x[at(i)] : u[at(i - nx)];
-    unit = 1;
-    call(i);
-    unit = 0;
-    m.output.col(i) -= m.output.col(columns - 1);
-    if (nx > 0) m.derivative.col(i) -= m.derivative.col(columns - 1);
-  }
-  return m;
-}
-
-}  // namespace
-
 LinearPart::LinearPart(const Program& program, std::vector<int> blocks, std::vector<int> outputs)
     : blocks_(std::move(blocks)), outputs_(std::move(outputs)) {
   std::vector<bool> inside(program.blocks.size(), false);
@@ -146,7 +110,7 @@ void LinearPart::bind(const Program& program, const Run& run) {
   }
   std::vector<BlockMatrices> matrices;
   // First all outputs that need no input (they close the loops), then the rest in value order.
-  for (std::size_t k = 0; k < blocks_.size(); ++k) matrices.push_back(read_block(program, run, blocks_[k]));
+  for (std::size_t k = 0; k < blocks_.size(); ++k) matrices.push_back(matrices_of(program, run, blocks_[k]));
   const auto local = [&](const Eigen::MatrixXd& matrix, Eigen::Index row, std::size_t k, bool with_inputs) {
     const BlockInstance& b = program.blocks[at(blocks_[k])];
     Eigen::RowVectorXd r = Eigen::RowVectorXd::Zero(columns);

@@ -11,16 +11,12 @@
 #include <vector>
 
 #include "engine/program/program.h"
+#include "engine/rowwise/block_matrices.h"
 
 namespace hysteron {
 
 class LinearPart {
  public:
-  /// The matrices of one block, read off its functions at unit vectors; the last column is its constant part.
-  struct BlockMatrices {
-    Eigen::MatrixXd derivative, output;  ///< rows over [x, u, 1]
-  };
-
   /// `blocks` in value order; `outputs`: signals of these blocks that somebody outside reads.
   LinearPart(const Program& program, std::vector<int> blocks, std::vector<int> outputs);
 

@@ -36,7 +36,10 @@ double change(const std::vector<std::vector<double>>& a, const std::vector<std::
 void add_slopes(const Program& program, const Run& run, const std::vector<int>& parameters, Advance& advance,
                 const Advance::Instants& rows, const AdvanceOptions& how, Traces& traces) {
   if (parameters.empty()) return;
-  const auto pairs = ForwardSensitivities(program, run, parameters).pairs(run);
+  Run center = run;
+  for (const int p : parameters)
+    for (const int slot : program.parameters[static_cast<std::size_t>(p)].slots) center.varied.push_back(slot);
+  const auto pairs = ForwardSensitivities(program, center, parameters).pairs(center);
   std::vector<const Run*> runs;
   for (const auto& pair : pairs) runs.insert(runs.end(), {&pair.up, &pair.down});
   std::vector<std::vector<std::vector<double>>> values;

@@ -159,8 +159,10 @@ Run DataModel::Content::prepared(int r, std::span<const ParameterValue> values) 
     if (!std::isfinite(v.value))
       fail_numerics("not_finite", program->parameters[static_cast<std::size_t>(v.parameter)].path,
                     "value is not finite", "give a finite start value");
-    for (const int slot : program->parameters[static_cast<std::size_t>(v.parameter)].slots)
+    for (const int slot : program->parameters[static_cast<std::size_t>(v.parameter)].slots) {
       run.p[static_cast<std::size_t>(slot)] = v.value;
+      run.varied.push_back(slot);
+    }
   }
   // All at once: two values that belong together are never seen half changed.
   prepare(*program, run);

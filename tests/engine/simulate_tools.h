@@ -102,6 +102,15 @@ inline double distance(const std::vector<double>& a, const std::vector<double>& 
   return worst;
 }
 
+/// The largest distance of a signal from that of b, over the largest value of that.
+inline double relative_distance(const std::vector<std::vector<double>>& a, const std::vector<std::vector<double>>& b) {
+  double worst = 0;
+  for (std::size_t s = 0; s < a.size(); ++s) worst = std::max(worst, distance(a[s], b[s]) / largest(b[s]));
+  return worst;
+}
+
+inline Number number(double value, std::string unit) { return {value, std::move(unit)}; }
+
 inline std::vector<double> grid(double begin, double until, int steps) {
   std::vector<double> t;
   for (int k = 0; k <= steps; ++k) t.push_back(begin + (until - begin) * k / steps);

@@ -15,8 +15,6 @@ using namespace tools;
 using Blocks = std::vector<std::pair<std::string, Node>>;
 using Values = std::vector<std::vector<double>>;
 
-Number of(double value, const char* unit) { return {value, unit}; }
-
 SeriesPointer voltage(double until, int rows, double size, double slow, double fast) {
   const auto t = grid(0, until, rows);
   std::vector<double> v;
@@ -46,25 +44,19 @@ Values by_integrator(const Blocks& blocks, const std::vector<std::string>& recor
   return simulate(*program, run, options).values;
 }
 
-double disagreement(const Values& a, const Values& b) {
-  double worst = 0;
-  for (std::size_t s = 0; s < a.size(); ++s) worst = std::max(worst, distance(a[s], b[s]) / largest(b[s]));
-  return worst;
-}
-
 /// A motor whose winding sees its speed, with dry friction in its bearings.
 Blocks motor(double coulomb, double excess, double back_emf) {
   return {{"voltage", block("sum", {{"signs", "+-"}}, {"u", "back"})},
           {"winding", block("lag", {{"times", list({0.004}, "s")}}, {"voltage"})},
-          {"torque", block("gain", {{"gain", of(0.025, "N m/V")}}, {"winding"})},
+          {"torque", block("gain", {{"gain", number(0.025, "N m/V")}}, {"winding"})},
           {"rotor", block("inertia_with_friction",
-                          {{"inertia", of(2e-5, "kg m^2")},
-                           {"damping", of(1e-5, "N m s")},
-                           {"coulomb", of(coulomb, "N m")},
-                           {"breakaway", of(coulomb * (1 + excess), "N m")},
-                           {"stribeck_velocity", of(3, "rad/s")}},
+                          {{"inertia", number(2e-5, "kg m^2")},
+                           {"damping", number(1e-5, "N m s")},
+                           {"coulomb", number(coulomb, "N m")},
+                           {"breakaway", number(coulomb * (1 + excess), "N m")},
+                           {"stribeck_velocity", number(3, "rad/s")}},
                           {"torque"})},
-          {"back", block("gain", {{"gain", of(back_emf, "V s")}}, {"rotor.velocity"})}};
+          {"back", block("gain", {{"gain", number(back_emf, "V s")}}, {"rotor.velocity"})}};
 }
 
 TEST(AdvanceLoopModes, FrictionOfMotorsAgreesWithTheIntegrator) {
@@ -78,8 +70,8 @@ TEST(AdvanceLoopModes, FrictionOfMotorsAgreesWithTheIntegrator) {
     SCOPED_TRACE(i);
     // Rows of a quarter of the electrical time constant: Runge-Kutta's (1/4)^4/120 a row, sixteen times less in halves;
     // where it begins to slide off its breakaway an error grows with the falling force.
-    const double rows = disagreement(by_rows(blocks, {"rotor.velocity", "winding"}, u, 1), exact);
-    const double finer = disagreement(by_rows(blocks, {"rotor.velocity", "winding"}, u, 8), exact);
+    const double rows = relative_distance(by_rows(blocks, {"rotor.velocity", "winding"}, u, 1), exact);
+    const double finer = relative_distance(by_rows(blocks, {"rotor.velocity", "winding"}, u, 8), exact);
     EXPECT_LT(rows, 2e-3);
     EXPECT_LT(finer, 2e-6);
   }
@@ -88,17 +80,18 @@ TEST(AdvanceLoopModes, FrictionOfMotorsAgreesWithTheIntegrator) {
 TEST(AdvanceLoopModes, AServoSticksWhereItIsHeld) {
   // A proportional loop pulls with k e: once at rest it stays within breakaway/k of where it was sent.
   const Blocks blocks{
-      {"target", block("gain", {{"gain", of(1e-3, "m/V")}}, {"u"})},
+      {"target", block("gain", {{"gain", number(1e-3, "m/V")}}, {"u"})},
       {"e", block("sum", {{"signs", "+-"}}, {"target", "m.position"})},
-      {"pull", block("gain", {{"gain", of(1000, "N/m")}}, {"e"})},
-      {"m", block("mass_with_friction",
-                  {{"mass", of(0.1, "kg")}, {"damping", of(6, "N s/m")}, {"coulomb", of(0.5, "N")}}, {"pull"})}};
+      {"pull", block("gain", {{"gain", number(1000, "N/m")}}, {"e"})},
+      {"m",
+       block("mass_with_friction",
+             {{"mass", number(0.1, "kg")}, {"damping", number(6, "N s/m")}, {"coulomb", number(0.5, "N")}}, {"pull"})}};
   const auto t = grid(0, 1, 500);
   std::vector<double> v;
   for (const double s : t) v.push_back(s < 0.2 ? 0.0 : std::min(1.0, (s - 0.2) / 0.05) * 3);
   const auto u = series(t, v, Between::linear);
   const auto rows = by_rows(blocks, {"m.position", "m.velocity"}, u, 4);
-  EXPECT_LT(disagreement(rows, by_integrator(blocks, {"m.position", "m.velocity"}, u)), 1e-6);
+  EXPECT_LT(relative_distance(rows, by_integrator(blocks, {"m.position", "m.velocity"}, u)), 1e-6);
   EXPECT_EQ(rows[1].back(), 0.0);
   EXPECT_EQ(rows[0].back(), rows[0][rows[0].size() - 50]);
   EXPECT_LT(std::abs(rows[0].back() - 3e-3), 0.5e-3);
@@ -111,29 +104,30 @@ TEST(AdvanceLoopModes, JumpsOfTheInputBreakItAway) {
   for (const double s : t) v.push_back(std::fmod(s, 0.2) < 0.1 ? 1.5 : -0.3);
   const auto u = series(t, v, Between::hold);
   const std::vector<std::string> seen{"rotor.velocity", "rotor.angle"};
-  EXPECT_LT(disagreement(by_rows(blocks, seen, u, 16), by_integrator(blocks, seen, u)), 2e-6);
+  EXPECT_LT(relative_distance(by_rows(blocks, seen, u, 16), by_integrator(blocks, seen, u)), 2e-6);
 }
 
 TEST(AdvanceLoopModes, ALevelThatIsControlledMeetsTheBrim) {
   // The pump gives at most what the limit allows; the integral of the controller stands at its limits.
   const Blocks blocks{
-      {"wanted", block("gain", {{"gain", of(0.1, "m/V")}}, {"u"})},
+      {"wanted", block("gain", {{"gain", number(0.1, "m/V")}}, {"u"})},
       {"e", block("sum", {{"signs", "+-"}}, {"wanted", "tank.level"})},
-      {"integral", block("limited_integrator",
-                         {{"lower", of(0, "m s")}, {"upper", of(0.4, "m s")}, {"initial", of(0, "m s")}}, {"e"})},
-      {"flow", block("gain", {{"gain", of(2e-4, "m^2/s^2")}}, {"integral"})},
-      {"more", block("gain", {{"gain", of(3e-4, "m^2/s")}}, {"e"})},
+      {"integral",
+       block("limited_integrator",
+             {{"lower", number(0, "m s")}, {"upper", number(0.4, "m s")}, {"initial", number(0, "m s")}}, {"e"})},
+      {"flow", block("gain", {{"gain", number(2e-4, "m^2/s^2")}}, {"integral"})},
+      {"more", block("gain", {{"gain", number(3e-4, "m^2/s")}}, {"e"})},
       {"in", block("sum", {{"signs", "++"}}, {"flow", "more"})},
       {"tank", block("tank",
-                     {{"area", of(0.01, "m^2")},
-                      {"outlet", of(3e-5, "m^3/s")},
-                      {"reference", of(0.1, "m")},
-                      {"brim", of(0.25, "m")},
-                      {"initial", of(0.1, "m")}},
+                     {{"area", number(0.01, "m^2")},
+                      {"outlet", number(3e-5, "m^3/s")},
+                      {"reference", number(0.1, "m")},
+                      {"brim", number(0.25, "m")},
+                      {"initial", number(0.1, "m")}},
                      {"in"})}};
   const auto u = voltage(600, 1200, 2, 0.02, 0.05);
   const std::vector<std::string> seen{"tank.level", "integral"};
-  EXPECT_LT(disagreement(by_rows(blocks, seen, u, 4), by_integrator(blocks, seen, u)), 1e-6);
+  EXPECT_LT(relative_distance(by_rows(blocks, seen, u, 4), by_integrator(blocks, seen, u)), 1e-6);
 }
 
 TEST(AdvanceLoopModes, TheSameRowByRowAndManyAtOnce) {
@@ -150,10 +144,11 @@ TEST(AdvanceLoopModes, WhatJumpsBesideARateIndependentLawIsLeftToTheIntegrator) 
   const Blocks blocks{
       {"e", block("sum", {{"signs", "+-"}}, {"u", "back"})},
       {"law", thesis_bouc_wen("e")},
-      {"pull", block("gain", {{"gain", of(1, "N/um")}}, {"law"})},
-      {"m", block("mass_with_friction",
-                  {{"mass", of(0.1, "kg")}, {"damping", of(6, "N s/m")}, {"coulomb", of(0.5, "N")}}, {"pull"})},
-      {"back", block("gain", {{"gain", of(1, "V/mm")}}, {"m.position"})}};
+      {"pull", block("gain", {{"gain", number(1, "N/um")}}, {"law"})},
+      {"m",
+       block("mass_with_friction",
+             {{"mass", number(0.1, "kg")}, {"damping", number(6, "N s/m")}, {"coulomb", number(0.5, "N")}}, {"pull"})},
+      {"back", block("gain", {{"gain", number(1, "V/mm")}}, {"m.position"})}};
   const auto why = why_not_exact(*compiled(diagram(blocks, {"m.position"}, {{"u", "V"}})));
   EXPECT_NE(why.find("mass_with_friction \"m\" changes its mode at events and stands in a feedback loop"),
             std::string::npos)
