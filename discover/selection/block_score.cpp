@@ -184,6 +184,12 @@ double BlockScore::over_noise(const LeftSums& left) const {
   return most;
 }
 
+bool BlockScore::leaves_little(const LeftSums& left, const LeftSums& before) const {
+  constexpr double tenth = 0.1;
+  const double now = std::pow(over_noise(left), 2);
+  return now - 1 <= tenth * tenth * (std::pow(over_noise(before), 2) - now);
+}
+
 // No colour of noise that nobody stated.
 NoiseModel BlockScore::weights(const Evidence& evidence, const LeftSums& left) const {
   NoiseModel weights = evidence.noise();

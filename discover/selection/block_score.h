@@ -70,6 +70,8 @@ class BlockScore {
   NoiseModel weights(const Evidence& evidence, const LeftSums& left) const;
   /// rms over the noise s, of the output where that is largest.
   double over_noise(const LeftSums& left) const;
+  /// Beyond the noise less than a tenth of what is explained (rms), of what a model leaves and what was left without.
+  bool leaves_little(const LeftSums& left, const LeftSums& before) const;
 
  private:
   struct Block {

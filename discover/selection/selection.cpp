@@ -382,18 +382,23 @@ bool Selection::add_one(int step) {
   return claim_of_last_round();
 }
 
+/// Does it explain enough more than what stood before? Where the search was broken off who was not asked might have
+/// been the one, but where hardly anything is left to explain.
+bool Selection::may_be_claimed(const TableModel& f, const TableModel& before, bool broken_off) const {
+  if (score_of(f) <= score_of(before) + rules::by_score) return false;
+  return !broken_off || score().over_noise(f.left_at_last()) <= rules::near_noise ||
+         score().leaves_little(f.left_at_last(), before.left_at_last());
+}
+
 /// Asked once more when others have been fitted: what noise is taken for is read off all of them.
 bool Selection::claim_of_last_round() {
   if (!unclaimed_) return false;
   Round& round = rounds_.back();
   sort(round.rivals);
   const TableModel& before = round.on.model.placed.empty() ? nulls_.better(score()) : round.on;
-  const double needed = score_of(before) + rules::by_score;
   for (const auto& r : round.rivals) {
-    if (!r.fitted.ok() || score_of(r.fitted) <= needed) break;
-    if (!is_itself(r)) continue;
-    // Where more than noise is left, who was not asked might have been the one.
-    if (round.broken_off && score().over_noise(r.fitted.left_at_last()) > rules::near_noise) break;
+    if (r.fitted.ok() && !is_itself(r)) continue;
+    if (!r.fitted.ok() || !may_be_claimed(r.fitted, before, round.broken_off)) break;
     best_ = plainest_like(r, round.rivals).fitted;
     unclaimed_ = false;
     return true;
@@ -450,8 +455,7 @@ bool Selection::add_two(int step) {
     best = Round{one, std::move(rivals)};
   }
   best_ = before.model;
-  if (!best || state_.stopped() || score_of(best->rivals.front().fitted) <= score_of(best_) + rules::by_score)
-    return false;
+  if (!best || state_.stopped() || !may_be_claimed(best->rivals.front().fitted, best_, left_some_out_)) return false;
   before.found = true;
   best_ = best->rivals.front().fitted;
   for (auto& r : best->rivals) r.tried.candidate = r.fitted.model;

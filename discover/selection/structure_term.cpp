@@ -15,8 +15,7 @@
 namespace hysteron {
 namespace {
 
-constexpr double left_of_itself = 0.1;  // rms, by a structure that explains; over the noise
-constexpr int renewals = 3;             // of weights, by what is left: the fit is linear, and settles at once
+constexpr int renewals = 3;  // of weights, by what is left: the fit is linear, and settles at once
 
 /// One structure on one model.
 struct WithStructure {
@@ -115,14 +114,6 @@ bool is_of_a_standing_law(const SearchState& state, const CandidateModel& model,
   });
 }
 
-/// A law is simpler than what it stands for, and may leave a part of that; a structure stands for nothing but what it
-/// describes.
-bool describes(const BlockScore& score, const WithStructure& structure, const TableModel& without) {
-  const double left = std::pow(score.over_noise(structure.left), 2),
-               before = std::pow(score.over_noise(without.left), 2);
-  return left - 1 <= left_of_itself * left_of_itself * (before - left);
-}
-
 }  // namespace
 
 std::optional<CompetingStructure> structure_beside_effects(SearchState& state, Selection& selection) {
@@ -174,7 +165,9 @@ std::optional<CompetingStructure> structure_beside_effects(SearchState& state, S
                           of_all.by < 0 ? "below" : "above");
   else if (beside_effects >= alone + rules::by_score)
     why_not = "the effects would be claimed beside it";
-  else if (!describes(score, *best, *where->on))
+  // A law is simpler than what it stands for, and may leave a part of that; a structure stands for nothing but what it
+  // describes.
+  else if (!score.leaves_little(best->left, where->on->left))
     why_not = "it leaves more than a tenth of what it explains";
   else if (is_of_a_standing_law(state, selection.best().model, *of_all.judged.search.winner()))
     why_not = "an effect that was found looks for it";

@@ -127,6 +127,11 @@ std::string Bench::check() const {
   return kernel.check == nullptr ? "" : kernel.check(view<double>(p, {}, {}, {}, 0, 0));
 }
 
+bool Bench::is_linear() const {
+  return kernel.declaration.is_linear ||
+         (kernel.is_linear_at != nullptr && kernel.is_linear_at(view<double>(p, {}, {}, {}, 0, 0)));
+}
+
 Numbers Bench::output(double t, const Numbers& u, const Numbers& x, const Numbers& m) const {
   return output(t, t, u, x, m);
 }

@@ -37,6 +37,7 @@ class Bench {
 
   void prepare();
   std::string check() const;
+  bool is_linear() const;  ///< in general, or with these parameters (Kernel::is_linear_at)
 
   /// Outputs for advanced memory `m`; the branch is the time where nothing else is said.
   Numbers output(double t, const Numbers& u = {}, const Numbers& x = {}, const Numbers& m = {}) const;

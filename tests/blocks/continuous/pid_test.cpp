@@ -29,6 +29,7 @@ const bench::Samples pids{
       {"rate", {4}},
       {"output_rate", {1}},
       {"follow_time", {0.3}}}},
+    {"pid_tracking", {{"kp", {2}}, {"ki", {3}}, {"kd", {0.4}}, {"filter", {0.2}}, {"tracking_time", {0.5}}}},
     {"pid_tracking", {{"form", {1}}, {"kp", {2}}, {"integral_time", {0.7}}, {"lower", {-1}}, {"upper", {1.5}}}},
     {"discrete_pid",
      {{"kp", {2}}, {"ki", {3}}, {"kd", {0.4}}, {"lower", {-1}}, {"upper", {1.5}}, {"rate", {4}}, {"period", {0.1}}}},

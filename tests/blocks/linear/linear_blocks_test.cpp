@@ -2,7 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
+#include <set>
+#include <string>
 
+#include "blocks/register_all.h"
 #include "models/random.h"
 #include "tests/blocks/samples.h"
 
@@ -104,9 +108,8 @@ TEST_P(Rest, IsWhereNothingMoves) {
   for (const double rate : b.derivative(u, x)) EXPECT_NEAR(rate, 0, 1e-13);
 }
 
-INSTANTIATE_TEST_SUITE_P(Blocks, Linear, testing::ValuesIn(bench::samples_where([](const Bench& b) {
-                           return b.kernel.declaration.is_linear;
-                         })),
+INSTANTIATE_TEST_SUITE_P(Blocks, Linear,
+                         testing::ValuesIn(bench::samples_where([](const Bench& b) { return b.is_linear(); })),
                          bench::sample_name);
 INSTANTIATE_TEST_SUITE_P(Blocks, LinearParameters, testing::ValuesIn(bench::samples_where([](const Bench& b) {
                            return any_parameter(b, &ParameterDeclaration::is_linear);
@@ -125,6 +128,22 @@ TEST(LinearBlocks, AreThoseOfTheExactAdvance) {
   for (const auto& type : {"gain", "sum", "pass", "calibration", "integrator", "transfer_function", "pi_controller",
                            "lag", "creep", "logarithmic_creep"})
     EXPECT_TRUE(bench::kernel_of(type).declaration.is_linear) << type;
+}
+
+TEST(LinearBlocks, ThoseThatAreAtSomeNumbersHaveSamplesOfBothKindsAndNoModes) {
+  std::map<std::string, std::set<bool>> seen;
+  for (const auto& type : all_blocks().types()) {
+    const auto& kernel = bench::kernel_of(type);
+    if (kernel.is_linear_at == nullptr) continue;
+    EXPECT_FALSE(kernel.has_modes()) << type;
+    EXPECT_FALSE(kernel.declaration.is_linear) << type;
+    seen[type];
+  }
+  for (const auto& s : bench::samples())
+    if (const auto one = seen.find(s.type); one != seen.end())
+      one->second.insert(Bench(s.type, s.values, s.inputs).is_linear());
+  EXPECT_GE(seen.size(), 5u);
+  for (const auto& [type, kinds] : seen) EXPECT_EQ(kinds.size(), 2u) << type;
 }
 
 TEST(TransferFunctionBlock, FeedsThroughOnlyWithAsManyNumeratorAsDenominatorCoefficients) {

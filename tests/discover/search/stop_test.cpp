@@ -92,7 +92,9 @@ TEST_F(StopOfADiscovery, AtAnyMomentClaimsNothingThatExplainsNothing) {
     list.push_back(recording(std::to_string(r) + ".csv", r < 2 ? Role::train : Role::validate, t, u, std::move(y)));
   }
   const DataSet data = data_set(std::move(list), 1e-3);
-  const auto found = [&](long at) { return stopped_at(at, data, {"hysteresis", "backlash", "creep", "calibration"}); };
+  const auto found = [&](long at) {
+    return stopped_at(at, data, {"hysteresis", "backlash", "creep", "calibration", "asymmetry", "amplifier_lag"});
+  };
   ASSERT_TRUE(found(1'000'000'000).steps.empty());
   const long all = asked;
   constexpr long moments = 24;

@@ -108,6 +108,18 @@ TEST_F(ScoreOf, OverNoiseIsOneWhereOnlyNoiseIsLeft) {
   EXPECT_NEAR(score.over_noise(left_sums(best_)), 1, 0.03);  // rms of 12000 rows: 0.6 %, and its stated size
 }
 
+TEST_F(ScoreOf, LittleIsLeftWhereThatIsATenthOfWhatIsExplained) {
+  const BlockScore score(*evidence_, {left_sums(best_)});
+  const auto beside = [&](double size) {  // independent of the noise: squares add up
+    return left_sums(with([&](int, std::size_t i) { return size * std::sin(0.1 * static_cast<double>(i)); }));
+  };
+  const auto before = beside(100 * sensor_noise);
+  EXPECT_TRUE(score.leaves_little(left_sums(best_), before));
+  EXPECT_TRUE(score.leaves_little(beside(9 * sensor_noise), before));
+  EXPECT_FALSE(score.leaves_little(beside(11 * sensor_noise), before));
+  EXPECT_FALSE(score.leaves_little(before, before));
+}
+
 double chi2_by(const NoiseModel& weights, const LeftSums& left) {
   double chi2 = 0;
   for (const auto& l : left) {
