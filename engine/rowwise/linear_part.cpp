@@ -8,6 +8,7 @@
 #include "engine/diagram/index.h"
 #include "engine/matrices/decompositions.h"
 #include "engine/program/loop_plan.h"
+#include "engine/rowwise/block_matrices.h"
 
 namespace hysteron {
 LinearPart::LinearPart(const Program& program, std::vector<int> blocks, std::vector<int> outputs)

@@ -11,9 +11,10 @@
 #include <vector>
 
 #include "engine/program/program.h"
-#include "engine/rowwise/block_matrices.h"
 
 namespace hysteron {
+
+struct BlockMatrices;
 
 class LinearPart {
  public:
