@@ -94,7 +94,7 @@ struct Pid {
     v.out[filtered] = (differentiated(v) - v.x[filtered]) / pid::filter_of(g, v.parameter(filter));
     if (has_command(v)) v.out[command] = pid::limited(T{-v.parameter(rate)}, v.parameter(rate), asked(v, w.command));
   }
-  /// Without limits back_calculation has nothing to do.
+  /// Without limits: back_calculation has nothing to do then, and clamping is refused.
   static bool is_linear_at(const View<double>& v) {
     return std::isinf(v.parameter(lower)) && std::isinf(v.parameter(upper)) && !has_command(v);
   }

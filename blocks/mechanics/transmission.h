@@ -28,6 +28,7 @@ struct Transmission {
     const T load = transmission::load(contact(p), at.twist, at.rate);
     return {load, transmission::felt(load, at.ratio, p.efficiency, speed)};
   }
+  /// Without play and losses.
   template <class P>
   static bool is_linear_at(const P& p) {
     return p.gap == 0 && p.efficiency == 1;

@@ -382,8 +382,7 @@ bool Selection::add_one(int step) {
   return claim_of_last_round();
 }
 
-/// Does it explain enough more than what stood before? Where the search was broken off who was not asked might have
-/// been the one, but where hardly anything is left to explain.
+/// Who was not asked might have been the one, but where hardly anything is left to explain.
 bool Selection::may_be_claimed(const TableModel& f, const TableModel& before, bool broken_off) const {
   if (score_of(f) <= score_of(before) + rules::by_score) return false;
   return !broken_off || score().over_noise(f.left_at_last()) <= rules::near_noise ||

@@ -51,9 +51,10 @@ class Selection {
   /// with the rest; that term first, the others by their score. Among them, as `hidden`, what these recordings cannot
   /// show and may have acted all the same: a gain that follows a temperature, at one temperature.
   std::vector<Addition> in_place_of(const std::vector<std::size_t>& term);
+  /// Does this model explain enough more than what stood before? broken_off: not everybody has been asked.
+  bool may_be_claimed(const TableModel& f, const TableModel& before, bool broken_off) const;
   /// Takes the best of what was asked last on the best model, if it is claimed by the score of all models that have
   /// been fitted. False, and nothing moves, where that has been claimed already.
-  bool may_be_claimed(const TableModel& f, const TableModel& before, bool broken_off) const;
   bool claim_of_last_round();
   /// This term of the best model (see terms_of) leaves it. False, and it stays, where the rest cannot be fitted.
   bool leave(const std::vector<std::size_t>& term);

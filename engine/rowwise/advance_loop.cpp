@@ -15,7 +15,7 @@ namespace {
 
 constexpr int most_rounds = 100;    // of changes of mode at one instant
 constexpr int most_changes = 1000;  // within one row: no motion
-// Of a row. What a mode does a billionth of a row too long moves nothing by more than its rate over that time.
+// Of a row: a mode lasts so much too long, and moves what it moves by its rate over that time.
 constexpr double root_width_of_row = 1e-12;
 
 }  // namespace
@@ -92,12 +92,11 @@ void AdvanceLoop::follow_row(double h) {
   for (int changes = 0; place < 1; ++changes) {
     if (changes == most_changes) report_unsettled("chattering", changes);
     place = to_the_next_change(place, h);
-    settle();
   }
 }
 
 /// From `begin` on, a share of the row of h [s], to its end or right behind the first place where a mode may not stay;
-/// where that is. The guards at `begin` are those that were looked at last.
+/// where that is; it has changed there. guard_ holds the guards at `begin`, and then those at the end.
 double AdvanceLoop::to_the_next_change(double begin, double h) {
   for (std::size_t i = 0; i < began_.size(); ++i) began_[i] = x_[at(part_.states[i])];
   const auto reach = [&](double end, std::vector<double>& g) {
@@ -109,15 +108,19 @@ double AdvanceLoop::to_the_next_change(double begin, double h) {
   begin_.t = begin;
   begin_.g = guard_;
   end_.t = 1;
-  if (reach(1, end_.g)) {
-    double last = 1;
-    first_root(begin_, end_, root_width_of_row, [&](double place, std::vector<double>& g) {
-      reach(last = place, g);
-      return 0;
-    });
-    if (last != end_.t) reach(end_.t, end_.g);
+  if (!reach(1, end_.g)) {
+    guard_ = end_.g;
+    accept_values();
+    return 1;
   }
+  double last = 1;
+  first_root(begin_, end_, root_width_of_row, [&](double place, std::vector<double>& g) {
+    reach(last = place, g);
+    return 0;
+  });
+  if (last != end_.t) reach(end_.t, end_.g);
   accept_values();
+  settle();
   return end_.t;
 }
 
@@ -183,16 +186,14 @@ bool AdvanceLoop::look_at_guards(std::vector<double>& g) {
   return due;
 }
 
-/// Modes change until each may stay. True if one did.
-bool AdvanceLoop::settle() {
-  if (part_.modal.empty()) return false;
+/// Modes change until each may stay.
+void AdvanceLoop::settle() {
   for (int round = 0; look_at_guards(guard_); ++round) {
     if (round == most_rounds) report_unsettled("modes_do_not_settle", round);
     change_modes(guard_);
     values();
     accept_values();
   }
-  return true;
 }
 
 /// New states from the values with the old modes, then all at once.

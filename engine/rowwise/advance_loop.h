@@ -35,7 +35,7 @@ class AdvanceLoop {
   void derivatives();
   void values();
   void accept_values();
-  bool settle();
+  void settle();
   bool look_at_guards(std::vector<double>& g);
   void change_modes(const std::vector<double>& g);
   [[noreturn]] void report_unsettled(const char* code, int changes) const;

@@ -102,40 +102,13 @@ void LinearPart::bind(const Program& program, const Run& run) {
   if (is_bound_to(program, run)) return;
   bound_to_.clear();
   const auto m = w_.size();
-  // Every signal of the group as a row over [x, w, 1].
-  const Eigen::Index columns = n_ + m;
-  std::vector<Eigen::RowVectorXd> rows(program.signals.size());
-  for (std::size_t i = 0; i < inputs_.size(); ++i) {
-    rows[at(inputs_[i])] = Eigen::RowVectorXd::Zero(columns);
-    rows[at(inputs_[i])][n_ + static_cast<Eigen::Index>(i)] = 1;
-  }
-  std::vector<BlockMatrices> matrices;
-  // First all outputs that need no input (they close the loops), then the rest in value order.
-  for (std::size_t k = 0; k < blocks_.size(); ++k) matrices.push_back(matrices_of(program, run, blocks_[k]));
-  const auto local = [&](const Eigen::MatrixXd& matrix, Eigen::Index row, std::size_t k, bool with_inputs) {
-    const BlockInstance& b = program.blocks[at(blocks_[k])];
-    Eigen::RowVectorXd r = Eigen::RowVectorXd::Zero(columns);
-    for (int i = 0; i < b.sizes.states; ++i) r[first_state_[k] + i] += matrix(row, i);
-    if (with_inputs)
-      for (int i = 0; i < b.n_u; ++i)
-        if (matrix(row, b.sizes.states + i) != 0) r += matrix(row, b.sizes.states + i) * rows[at(b.source[at(i)])];
-    r[columns - 1] += matrix(row, b.sizes.states + b.n_u);
-    return r;
-  };
+  BlockRows group(program, run, blocks_, inputs_);
+  auto& rows = group.signals;
   if (has_loop_)
-    solve_loops(program, matrices, rows);
+    solve_loops(program, group.matrices, rows);
   else
-    for (const bool feedthrough : {false, true})
-      for (std::size_t k = 0; k < blocks_.size(); ++k) {
-        const BlockInstance& b = program.blocks[at(blocks_[k])];
-        if (b.sizes.feedthrough != feedthrough) continue;
-        for (int o = 0; o < b.sizes.outputs; ++o)
-          rows[at(b.y_begin + o)] = local(matrices[k].output, o, k, feedthrough);
-      }
-  Eigen::MatrixXd dynamics(n_, columns);
-  for (std::size_t k = 0; k < blocks_.size(); ++k)
-    for (int i = 0; i < program.blocks[at(blocks_[k])].sizes.states; ++i)
-      dynamics.row(first_state_[k] + i) = local(matrices[k].derivative, i, k, true);
+    group.follow_wires();
+  const Eigen::MatrixXd dynamics = group.rates();
   const Eigen::MatrixXd a = dynamics.leftCols(n_);
   const Eigen::MatrixXd b = dynamics.rightCols(m);
   if (a_.rows() != a.rows() || a_ != a || b_.cols() != b.cols() || b_ != b) {

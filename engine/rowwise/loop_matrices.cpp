@@ -1,6 +1,5 @@
 #include "engine/rowwise/loop_matrices.h"
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <set>
 
@@ -81,55 +80,27 @@ LoopMatrices::LoopMatrices(const AdvancePlan& plan, const AdvancePlan::LoopedPar
   values_ = planner.tasks_of_values();
 }
 
-/// Rows over [states, signals, 1], the outputs that need no input (they close the loops) first.
 void LoopMatrices::bind(const Run& run) {
-  const auto n = static_cast<Eigen::Index>(states_.size()), m = static_cast<Eigen::Index>(signals_.size());
-  std::vector<Eigen::RowVectorXd> rows(program_.signals.size());
-  for (Eigen::Index i = 0; i < m; ++i)
-    rows[at(signals_[at(static_cast<int>(i))])] = Eigen::RowVectorXd::Unit(n + m + 1, n + i);
-  std::vector<BlockMatrices> matrices;
-  for (const int b : blocks_) matrices.push_back(matrices_of(program_, run, b));
-  const auto row_of = [&](const Eigen::MatrixXd& matrix, int row, const BlockInstance& b, Eigen::Index first_state,
-                          bool with_inputs) {
-    Eigen::RowVectorXd r = Eigen::RowVectorXd::Zero(n + m + 1);
-    for (int i = 0; i < b.sizes.states; ++i) r[first_state + i] = matrix(row, i);
-    for (int i = 0; i < b.n_u && with_inputs; ++i)
-      if (matrix(row, b.sizes.states + i) != 0) r += matrix(row, b.sizes.states + i) * rows[at(b.source[at(i)])];
-    r[n + m] += matrix(row, b.sizes.states + b.n_u);
-    return r;
-  };
-  const auto each_block = [&](const auto& visit) {
-    Eigen::Index first_state = 0;
-    for (std::size_t k = 0; k < blocks_.size(); ++k) {
-      const BlockInstance& b = plan_.block(blocks_[k]);
-      visit(b, matrices[k], first_state);
-      first_state += b.sizes.states;
-    }
-  };
-  for (const bool feedthrough : {false, true})
-    each_block([&](const BlockInstance& b, const BlockMatrices& own, Eigen::Index first_state) {
-      if (b.sizes.feedthrough != feedthrough) return;
-      for (int o = 0; o < b.sizes.outputs; ++o)
-        rows[at(b.y_begin + o)] = row_of(own.output, o, b, first_state, feedthrough);
-    });
+  BlockRows rows(program_, run, blocks_, signals_);
+  rows.follow_wires();
   terms_.clear();
-  const auto keep = [&](const Eigen::RowVectorXd& row, Sum& sum) {
-    sum.begin = terms_.size();
-    for (Eigen::Index i = 0; i < n + m; ++i) {
-      if (i == n) sum.states_end = terms_.size();
-      if (row[i] != 0)
-        terms_.push_back(
-            {i < n ? states_[static_cast<std::size_t>(i)] : signals_[static_cast<std::size_t>(i - n)], row[i]});
-    }
-    if (m == 0) sum.states_end = terms_.size();
-    sum.end = terms_.size();
-    sum.constant = row[n + m];
+  for (Sum& sum : sums_) keep(rows.signals[at(sum.to)], sum);
+  const Eigen::MatrixXd rates = rows.rates();
+  for (std::size_t i = 0; i < rates_.size(); ++i) keep(rates.row(static_cast<Eigen::Index>(i)), rates_[i]);
+}
+
+/// row: over [states, signals, 1].
+void LoopMatrices::keep(const Eigen::RowVectorXd& row, Sum& sum) {
+  const auto take = [&](const std::vector<int>& from, Eigen::Index first) {
+    for (std::size_t i = 0; i < from.size(); ++i)
+      if (const double factor = row[first + static_cast<Eigen::Index>(i)]; factor != 0)
+        terms_.push_back({from[i], factor});
+    return terms_.size();
   };
-  for (Sum& sum : sums_) keep(rows[at(sum.to)], sum);
-  std::size_t rate = 0;
-  each_block([&](const BlockInstance& b, const BlockMatrices& own, Eigen::Index first_state) {
-    for (int i = 0; i < b.sizes.states; ++i) keep(row_of(own.derivative, i, b, first_state, true), rates_[rate++]);
-  });
+  sum.constant = row[row.size() - 1];
+  sum.begin = terms_.size();
+  sum.states_end = take(states_, 0);
+  sum.end = take(signals_, static_cast<Eigen::Index>(states_.size()));
 }
 
 double LoopMatrices::value_of(const Sum& sum, const Work& work, const double* x) const {

@@ -50,10 +50,7 @@ double disagreement(const Blocks& blocks, const std::vector<std::string>& record
   const auto ours = traces_of(blocks, record, u, Method::exact, tolerance, at_rest);
   EXPECT_EQ(ours.statistics.method, "exact");
   const auto bdf = traces_of(blocks, record, u, Method::bdf, tolerance, at_rest);
-  double worst = 0;
-  for (std::size_t s = 0; s < ours.values.size(); ++s)
-    worst = std::max(worst, distance(ours.values[s], bdf.values[s]) / largest(bdf.values[s]));
-  return worst;
+  return relative_distance(ours.values, bdf.values);
 }
 
 TEST(AdvanceLoops, ACubicSpringOfBlocksIsTheMassOnAStiffeningSpring) {
