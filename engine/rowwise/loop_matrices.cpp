@@ -84,23 +84,25 @@ void LoopMatrices::bind(const Run& run) {
   BlockRows rows(program_, run, blocks_, signals_);
   rows.follow_wires();
   terms_.clear();
-  for (Sum& sum : sums_) keep(rows.signals[at(sum.to)], sum);
+  const auto keep_row = [&](const Eigen::RowVectorXd& row, Sum& sum) {
+    keep({row.data(), static_cast<std::size_t>(row.size())}, sum);
+  };
+  for (Sum& sum : sums_) keep_row(rows.signals[at(sum.to)], sum);
   const Eigen::MatrixXd rates = rows.rates();
-  for (std::size_t i = 0; i < rates_.size(); ++i) keep(rates.row(static_cast<Eigen::Index>(i)), rates_[i]);
+  for (std::size_t i = 0; i < rates_.size(); ++i) keep_row(rates.row(static_cast<Eigen::Index>(i)), rates_[i]);
 }
 
 /// row: over [states, signals, 1].
-void LoopMatrices::keep(const Eigen::RowVectorXd& row, Sum& sum) {
-  const auto take = [&](const std::vector<int>& from, Eigen::Index first) {
+void LoopMatrices::keep(std::span<const double> row, Sum& sum) {
+  const auto take = [&](const std::vector<int>& from, std::size_t first) {
     for (std::size_t i = 0; i < from.size(); ++i)
-      if (const double factor = row[first + static_cast<Eigen::Index>(i)]; factor != 0)
-        terms_.push_back({from[i], factor});
+      if (const double factor = row[first + i]; factor != 0) terms_.push_back({from[i], factor});
     return terms_.size();
   };
-  sum.constant = row[row.size() - 1];
+  sum.constant = row.back();
   sum.begin = terms_.size();
   sum.states_end = take(states_, 0);
-  sum.end = take(signals_, static_cast<Eigen::Index>(states_.size()));
+  sum.end = take(signals_, states_.size());
 }
 
 double LoopMatrices::value_of(const Sum& sum, const Work& work, const double* x) const {

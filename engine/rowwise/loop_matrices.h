@@ -3,7 +3,7 @@
 // inputs of the loop. Internal to the exact advance.
 #pragma once
 
-#include <Eigen/Core>
+#include <span>
 #include <vector>
 
 #include "engine/rowwise/advance_plan.h"
@@ -40,7 +40,7 @@ class LoopMatrices {
   };
   class Planner;
 
-  void keep(const Eigen::RowVectorXd& row, Sum& sum);
+  void keep(std::span<const double> row, Sum& sum);
   void evaluate(const std::vector<Task>& tasks, Work& work, const double* x) const;
   double value_of(const Sum& sum, const Work& work, const double* x) const;
 
