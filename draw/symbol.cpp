@@ -73,6 +73,7 @@ const Look* find_look(const std::string& type) {
       {"mass_with_cogging", {"mass", true}},
       {"mass_on_spring_of_plays", {"mass", true}},
       {"mass_on_bouc_wen_spring", {"mass", true}},
+      {"integrator_with_friction", {"friction", true}},
       {"inertia", {"inertia", true}},
       {"inertia_with_friction", {"inertia", true}},
       {"inertia_with_presliding", {"inertia", true}},

@@ -142,6 +142,7 @@ Run start_recording(const Program& program, const DataSet& data, const Recording
       fail("unknown_state", recording.name + ": initial/" + path, "the diagram has no state \"" + path + "\"",
            did_you_mean(path, program.state_names));
   }
+  begin_modes(program, run);
   return run;
 }
 

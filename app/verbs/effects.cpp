@@ -34,8 +34,7 @@ constexpr char effects_help[] =
 std::string varied_blocks(const Effect& effect) {
   std::vector<std::string> types;
   for (const auto& type : registry().types())
-    for (const auto& v : registry().find(type)->declaration.variations)
-      if (!effect.variation.empty() && v.name == effect.variation) types.push_back(type);
+    if (varied_by(effect, registry().find(type)->declaration) != nullptr) types.push_back(type);
   return fmt::format("{}", fmt::join(types, ", "));
 }
 
@@ -87,13 +86,13 @@ std::string changes_nothing(const Effect& effect, const Demonstration& shown) {
     if (!text.empty() && std::find(ways.begin(), ways.end(), text) == ways.end()) ways.push_back(text);
   };
   if (effect.variation.empty() || effect.way == Way::insert) add(shown.null_value);
-  for (const auto& type : registry().types())
-    for (const auto& v : registry().find(type)->declaration.variations) {
-      if (effect.variation.empty() || v.name != effect.variation) continue;
-      std::vector<NeutralValue> declared;
-      for (const auto& n : v.null_value) declared.push_back({n.parameter, n.value});
-      add(declared);
-    }
+  for (const auto& type : registry().types()) {
+    const VariationDeclaration* v = varied_by(effect, registry().find(type)->declaration);
+    if (v == nullptr) continue;
+    std::vector<NeutralValue> declared;
+    for (const auto& n : v->null_value) declared.push_back({n.parameter, n.value});
+    add(declared);
+  }
   return fmt::format("{}", fmt::join(ways, "; in a block that has it "));
 }
 

@@ -63,6 +63,7 @@ struct LimitedIntegrator : IntegratorPorts<resets> {
   };
   static void describe(BlockSpec<LimitedIntegrator>& spec);
   static std::string check(const Params<double>& p);
+  static bool is_affine_in_modes(const Params<double>&) { return true; }
 
   template <class T>
   static Out<T> output(const Params<T>&, const State<T>& s) {

@@ -8,6 +8,7 @@ void Integrator::describe(BlockSpec<Integrator>& spec) {
   spec.remark(
       "An integrator has no equilibrium of its own: where a simulation starts in steady state, it keeps "
       "its initial value.");
+  spec.variation("friction", "integrator_with_friction", {{"level", "0"}});
   spec.input(&In<double>::u, "u", "$a", "the signal to integrate");
   spec.state(&State<double>::x, "x", "$a*s", "the integral");
   spec.output(&Out<double>::y, "y", "$a*s", "the integral");

@@ -95,9 +95,8 @@ std::vector<DemoRig> device_rigs(const Effect& effect, const Effects& library, c
   for (const auto& type : registry.types()) {
     const Declaration& d = registry.find(type)->declaration;
     if (d.inputs.empty() || d.group == "internal") continue;
-    std::string by;
-    for (const auto& v : d.variations)
-      if (v.name == effect.variation) by = v.type;
+    const VariationDeclaration* v = varied_by(effect, d);
+    const std::string by = v == nullptr ? "" : v->type;
     const bool has = !effect.parameter.empty() && !d.memory_port.empty() &&
                      std::any_of(d.parameters.begin(), d.parameters.end(),
                                  [&](const ParameterDeclaration& p) { return p.name == effect.parameter; });

@@ -52,10 +52,6 @@ Law on_a_speed(const Excitation& at, bool flows) {
   return law;
 }
 
-bool is_speed(const Unit& unit) {
-  return unit.dimension == parse_unit("m/s").dimension || unit.dimension == parse_unit("rad/s").dimension;
-}
-
 }  // namespace
 
 Effect friction() {
@@ -67,7 +63,7 @@ Effect friction() {
       "F = coulomb*sgn(v), with more at low speed: coulomb*excess*exp(-|v/stribeck_velocity|^d), d = 1, 2; or, giving "
       "way before it slides, F = stiffness*(z + contact_time*z'),  z' = v - |v|*z/distance: sticks like a spring, slips "
       "at "
-      "stiffness*distance; without a mass "
+      "stiffness*distance; before an integrator that makes a speed v' = a - level*sgn(v); without a mass "
       "y = u - level*z/distance, v of y; beside a damping b: F = b*(v + level*z/distance)";
   e.source =
       "Dahl, AIAA J. 14 (1976) 1675; richer: Canudas de Wit, Olsson, Astrom, Lischinsky, IEEE Trans. Autom. Control 40 "
@@ -79,6 +75,8 @@ Effect friction() {
   e.places = {"command", "core", "damping"};
   e.behind_core = true;
   e.variation = "presliding";
+  e.or_variation = "friction";
+  e.or_where = is_speed;
   e.else_a_block = true;
   e.is_memory = true;
   e.parameters = {
@@ -89,7 +87,7 @@ Effect friction() {
       {"stribeck_velocity", "m/s, rad/s", "at which the excess is gone", "0.1 .. 10 mm/s"},
       {"contact_time", "s", "richest law: damping over stiffness of the contact while it sticks", ""},
       {"level", "unit of the wire",
-       "beside a damping, or on a wire that carries a speed: friction over the damping behind it; a motion: what is held "
+       "of an integrator that makes a speed: what it takes away of the acceleration; beside a damping, or on a wire that carries a speed: friction over the damping behind it; a motion: what is held "
        "back",
        ""},
       {"crossover", "m/s", "there: below it flows like a fluid (dampers with a yield force)", ""}};
@@ -107,6 +105,7 @@ Effect friction() {
     if (at.by.empty())
       return fmt::format("as much as the damping at {:.3g} % of the largest speed",
                          100 * values[0] / std::max({std::abs(at.lowest), std::abs(at.highest), 1e-300}));
+    if (makes_a_speed(at)) return told_of_a_speed(values, at);
     const double per_cent = 100 / std::max(driving_range(at), 1e-300);
     if (is_dry(law))
       return fmt::format(
@@ -125,6 +124,7 @@ Effect friction() {
     if (at.damping) return std::vector<Law>{beside_damping(at), beside_damping_with_excess(at)};
     if (at.by.empty() && is_motion(at.unit)) return std::vector<Law>{guided(at), guided_with_excess(at)};
     if (at.by.empty()) return std::vector<Law>{on_a_speed(at, false), on_a_speed(at, true)};
+    if (makes_a_speed(at)) return std::vector<Law>{dry(at), dry_with_excess(at), dry_with_quick_excess(at)};
     const Law sticky = presliding_with_excess(at);
     Law damped = with_contact_time(presliding(at), at), all = with_contact_time(sticky, at);
     damped.name = "presliding in a damped contact";

@@ -47,18 +47,26 @@ bool is_motion(const Unit& unit) {
   return unit.dimension == parse_unit("m").dimension || unit.dimension == parse_unit("rad").dimension;
 }
 
+bool is_speed(const Unit& unit) {
+  return unit.dimension == parse_unit("m/s").dimension || unit.dimension == parse_unit("rad/s").dimension;
+}
+
 namespace {
 
-constexpr const char *of_a_mass = "mass_with_friction", *of_an_inertia = "inertia_with_friction";
+constexpr const char *of_a_mass = "mass_with_friction", *of_an_inertia = "inertia_with_friction",
+                     *of_a_speed = "integrator_with_friction";
 
 std::string dry_type(const Excitation& at) {
+  if (makes_a_speed(at)) return at.by;
   return at.by == "mass_with_presliding" ? of_a_mass : at.by == "inertia_with_presliding" ? of_an_inertia : "";
 }
 
 }  // namespace
 
 bool can_be_dry(const Excitation& at) { return !dry_type(at).empty(); }
-bool is_dry(const Law& law) { return law.block.type == of_a_mass || law.block.type == of_an_inertia; }
+bool is_dry(const Law& law) {
+  return law.block.type == of_a_mass || law.block.type == of_an_inertia || law.block.type == of_a_speed;
+}
 
 Law dry(const Excitation& at) {
   Law law;
@@ -67,20 +75,25 @@ Law dry(const Excitation& at) {
   law.block.type = dry_type(at);
   const double force = driving_range(at) > 0 ? driving_range(at) : 1;
   LawParameter level;
-  level.path = "coulomb";
+  level.path = makes_a_speed(at) ? "level" : "coulomb";
   level.is_size = true;
   level.start = 0.05 * force;
   level.lower = 0;  // it takes energy
   level.upper = force;
   // As far apart as a search finds from one to the next; below a hundredth of what drives it little is seen.
   for (const double share : {0.003, 0.01, 0.03, 0.1, 0.3}) level.scan.push_back(share * force);
-  give(law.block, "coulomb", with_unit(level.start, parse_unit(turns(at) ? "N m" : "N")));
+  // What is left of a drive whose motion takes its force away (a back-EMF, a damping) is large where it jumps only.
+  if (makes_a_speed(at)) level.scan.insert(level.scan.begin(), {0.0003 * force, 0.001 * force});
+  give(law.block, level.path,
+       with_unit(level.start, makes_a_speed(at) ? at.unit : parse_unit(turns(at) ? "N m" : "N")));
   law.free = {level};
   return law;
 }
 
 Law dry_with_excess(const Excitation& at) {
-  Law law = with_excess(dry(at), largest_speed(travel(at), at), parse_unit(turns(at) ? "rad/s" : "m/s"));
+  const double fast = makes_a_speed(at) ? std::max(std::abs(at.travel_lowest), std::abs(at.travel_highest))
+                                        : largest_speed(travel(at), at);
+  Law law = with_excess(dry(at), fast > 0 ? fast : travel(at), parse_unit(turns(at) ? "rad/s" : "m/s"));
   law.apart = false;
   law.name = "dry with Stribeck's excess";
   return law;
@@ -214,6 +227,15 @@ std::string told_beside_damping(const std::vector<double>& values, const Excitat
   if (values.size() > 3)
     text += fmt::format(", {:.2g} % more below {:.3g} {}", 100 * values[2], at.unit.difference_from_si(values[3]),
                         at.unit.text);
+  return text;
+}
+
+std::string told_of_a_speed(const std::vector<double>& values, const Excitation& at) {
+  const char *unit = turns(at) ? "rad/s^2" : "m/s^2", *force = turns(at) ? "N m" : "N";
+  std::string text = fmt::format("{:.3g} {} ({:.2g} % of the acceleration)", values[0], unit,
+                                 100 * values[0] / std::max(driving_range(at), 1e-300));
+  if (at.inertia) text += fmt::format(": {:.3g} {} by the gain before it", values[0] * *at.inertia, force);
+  if (values.size() > 1) text += fmt::format(", {:.2g} % more before it slides fast", 100 * values[1]);
   return text;
 }
 

@@ -42,7 +42,12 @@ double fastest(const Excitation& at);
 /// at full speed is a switch between two rows.
 LawParameter give_slip_distance(Law& law, const Excitation& at);
 
+/// What dry friction of an integrator says, values as Law::free.
+std::string told_of_a_speed(const std::vector<double>& values, const Excitation& at);
+
 /// A length or an angle.
 bool is_motion(const Unit& unit);
+/// What changes them in time.
+bool is_speed(const Unit& unit);
 
 }  // namespace hysteron::effects

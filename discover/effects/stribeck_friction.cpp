@@ -27,6 +27,8 @@ Effect stribeck_friction() {
   e.places = {"core", "damping"};
   e.behind_core = true;
   e.variation = "presliding";
+  e.or_variation = "friction";
+  e.or_where = is_speed;
   e.else_a_block = true;
   e.is_memory = true;
   e.parameters = {{"contact_stiffness", "N/m, N*m/rad",
@@ -40,10 +42,12 @@ Effect stribeck_friction() {
                    {"quadratic_drag", "triangle", "a drag rises with the speed, it falls"}};
   e.laws = [](const Excitation& at) {
     if (at.damping) return std::vector<Law>{beside_damping_with_excess(at)};
+    if (makes_a_speed(at)) return std::vector<Law>{dry_with_excess(at)};
     return std::vector<Law>{at.by.empty() ? guided_with_excess(at) : presliding_with_excess(at)};
   };
   e.summary = [](const Law&, const std::vector<double>& values, const Excitation& at) {
     if (at.damping) return told_beside_damping(values, at);
+    if (makes_a_speed(at)) return told_of_a_speed(values, at);
     const std::string level = at.by.empty() ? "lost motion +-" + size_text(values[0], at.unit)
                                             : fmt::format("{:.3g} {}", values[0] * values[1], turns(at) ? "N m" : "N");
     if (values.size() < 4) return level;

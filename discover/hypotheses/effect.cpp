@@ -25,6 +25,13 @@ std::string parameter_path(const std::string& choice, const Law& law, const LawP
   return choice + (law.block.nested ? "/" : ".") + parameter.path;
 }
 
+const VariationDeclaration* varied_by(const Effect& effect, const Declaration& block) {
+  for (const auto& name : {effect.variation, effect.or_variation})
+    for (const auto& v : block.variations)
+      if (!name.empty() && v.name == name) return &v;
+  return nullptr;
+}
+
 Effects::Effects(std::vector<Effect> list) : list_(std::move(list)) {}
 
 const Effect* Effects::find(const std::string& id) const {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "discover/wiring/commutes.h"
+#include "engine/block/declaration.h"
 #include "engine/diagram/diagram.h"
 #include "engine/diagram/units.h"
 
@@ -61,6 +62,8 @@ struct Excitation {
   /// The gain [SI] of the damping that makes a force or a torque of the speed on the wire; none = it stands before
   /// none.
   std::optional<double> damping{};
+  /// Before an integrator: the force [N] or torque [N m] over the acceleration on the wire, where the wire says it.
+  std::optional<double> inertia{};
   double largest_jump = 0;             ///< largest change between two rows
   double shortest_step = 1e-3;         ///< [s] between rows, smallest over the recordings
   double longest_step = 1e-3;          ///< [s]
@@ -163,6 +166,9 @@ struct Effect {
   std::string file{};      ///< where a user's own effect was read from (effect_file.h); "" = of the library
   /// A block that offers this variation may be replaced by its richer type besides: the law is then that type.
   std::string variation;
+  /// The same where a block offers this one only, and its output may be so: an integrator that makes a speed.
+  std::string or_variation{};
+  std::function<bool(const Unit&)> or_where{};
   std::vector<std::string> places;  ///< kinds of place (place_kinds; with "core": see `behind_core`)
   Side side = Side::none;           ///< the signal that its block reads behind the wire
   bool behind_core = false;         ///< at the core only behind it (its parallel effects), else before and behind
@@ -206,6 +212,9 @@ struct Effect {
   /// empty.
   std::function<std::string(const Law&, const std::vector<double>&, const Excitation&)> summary;
 };
+
+/// The variation by which an effect may enter a block of this kind; nullptr = none.
+const VariationDeclaration* varied_by(const Effect& effect, const Declaration& block);
 
 /// The effects that hysteron knows, in the order in which they are tried.
 class Effects {

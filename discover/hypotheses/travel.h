@@ -22,12 +22,18 @@ inline double torque_of_a_volt(const Excitation& at) {
   return own_number(at, "torque_constant", 0) / own_number(at, "resistance", 1);
 }
 
-/// A torque drives the block, or a voltage that makes one: what it drives turns, and is an inertia.
+/// The block is an integrator that makes a speed of the acceleration on its wire.
+inline bool makes_a_speed(const Excitation& at) { return at.by == "integrator_with_friction"; }
+
+/// A torque drives the block, or a voltage that makes one, or an acceleration of an angle: what it drives turns, and is
+/// an inertia.
 inline bool turns(const Excitation& at) {
+  if (makes_a_speed(at)) return at.unit.dimension == parse_unit("rad/s^2").dimension;
   return at.unit.dimension == parse_unit("N m").dimension || torque_of_a_volt(at) > 0;
 }
 
-/// Range of the force [N] or torque [N m] that drives the block; of a motor, as if it stood.
+/// Range of the force [N] or torque [N m] that drives the block; of a motor, as if it stood; of an integrator, of the
+/// acceleration.
 inline double driving_range(const Excitation& at) {
   const double of_a_volt = torque_of_a_volt(at);
   return of_a_volt > 0 ? of_a_volt * at.range() : at.range();

@@ -210,6 +210,7 @@ Excitation without_data(const Diagram& diagram, const Registry& registry, const 
   if (const int signal = program->find_signal(place.wire); signal >= 0)
     c.unit = program->signals[static_cast<std::size_t>(signal)].unit;
   c.damping = damping_behind(*program, place, c.unit);
+  c.inertia = inertia_before(*program, place);
   return c;
 }
 

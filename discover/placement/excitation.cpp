@@ -10,6 +10,7 @@
 
 #include "discover/placement/rows.h"
 #include "discover/wiring/wiring.h"
+#include "engine/diagram/index.h"
 #include "engine/program/program.h"
 #include "fit/inspect/inspection.h"
 #include "fit/model/free_parameter.h"
@@ -253,6 +254,7 @@ class Observer {
       c.roughness = roughness_at(*program_, data_, signal);
       c.by = places_[i].by;
       c.damping = damping_behind(*program_, places_[i], c.unit);
+      c.inertia = inertia_before(*program_, places_[i]);
       const std::string stiffness = places_[i].at + ".stiffness";
       const auto* spring = c.by.empty() ? nullptr : program_->find_parameter(stiffness);
       c.springless = spring != nullptr && spring->value == 0 && !spring->free &&
@@ -435,6 +437,17 @@ std::optional<double> damping_behind(const Program& program, const Place& place,
   if (place.kind != "damping" || !(is("m/s") || is("rad/s"))) return {};  // kg/s makes a mass flow of a plain number
   const auto* gain = program.find_parameter(place.reading + ".gain");
   return gain == nullptr ? std::nullopt : std::optional(gain->value);
+}
+
+std::optional<double> inertia_before(const Program& program, const Place& place) {
+  const int wire = place.is_other ? program.find_signal(place.wire) : -1;
+  if (wire < 0) return {};
+  const BlockInstance& source = program.blocks[at(program.signals[at(wire)].block)];
+  const auto* gain = program.find_parameter(source.path + ".gain");
+  if (gain == nullptr || gain->value == 0 || source.source.size() != 1) return {};
+  const Dimension of_input = program.signals[at(source.source.front())].unit.dimension;
+  const bool drives = of_input == parse_unit("N").dimension || of_input == parse_unit("N m").dimension;
+  return drives ? std::optional(1 / std::abs(gain->value)) : std::nullopt;
 }
 
 std::vector<Excitation> circumstances_at(const Diagram& diagram, const Registry& registry, const DataSet& data,

@@ -14,6 +14,8 @@ namespace hysteron {
 
 /// Excitation::damping of a place in a diagram, compiled.
 std::optional<double> damping_behind(const Program& program, const Place& place, const Unit& of_wire);
+/// Excitation::inertia likewise.
+std::optional<double> inertia_before(const Program& program, const Place& place);
 
 /// Drives the diagram with the recordings and looks at the wires of `places`, one simulation per recording.
 /// `free_paths`: parameters that are free beside those that the diagram declares free ("stage.gain").

@@ -21,6 +21,7 @@ struct Place {
   std::string on{};  ///< the wire as it is without the effects that stand on it, where `at` is between these
   bool behind_core = false;  ///< of a core place: behind the core, not before it
   std::string side{};        ///< the signal or column that an effect reads there besides; "" = none
+  bool is_other = false;     ///< by Effect::or_variation
   std::string by{};          ///< the type that replaces the block `at` (a variation that it offers); "" = no block is
   Unit side_unit{};          ///< of a column that the diagram does not read yet
   std::string group[4]{};    ///< by Commutes: places with one mark cannot be told apart by such a law

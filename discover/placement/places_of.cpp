@@ -89,16 +89,30 @@ void collect_variations(const Diagram& diagram, const Registry& registry, const 
     if (has_effect(node, effect.id)) continue;
     const KernelPointer k = kernel_of(registry, *body);
     if (k == nullptr || node.in.empty()) continue;
-    for (const auto& v : k->declaration.variations) {
-      if (v.name != effect.variation || has_already(v, *body)) continue;
-      Place p;
-      p.kind = "force";
-      p.at = prefix + block;
-      p.wire = prefix + w.signal(node.in.front().from);
-      p.by = v.type;
-      list.push_back(std::move(p));
-    }
+    const VariationDeclaration* v = varied_by(effect, k->declaration);
+    if (v == nullptr || has_already(*v, *body)) continue;
+    Place p;
+    p.kind = "force";
+    p.at = prefix + block;
+    p.wire = prefix + w.signal(node.in.front().from);
+    p.by = v->type;
+    p.is_other = v->name != effect.variation;
+    list.push_back(std::move(p));
   }
+}
+
+/// Of the blocks that offer the other variation only, those whose output is of its kind.
+void keep_where_it_may_be(const Effect& effect, const Diagram& diagram, const Registry& registry,
+                          std::vector<Place>& list) {
+  if (std::none_of(list.begin(), list.end(), [](const Place& p) { return p.is_other; })) return;
+  const auto program = compile(diagram, registry);
+  std::erase_if(list, [&](const Place& p) {
+    if (!p.is_other) return false;
+    const auto block = std::find_if(program->blocks.begin(), program->blocks.end(),
+                                    [&](const BlockInstance& b) { return b.path == p.at; });
+    return block == program->blocks.end() ||
+           !effect.or_where(program->signals[static_cast<std::size_t>(block->y_begin)].unit);
+  });
 }
 
 bool is_temperature(const Unit& unit) { return unit.dimension == parse_unit("K").dimension; }
@@ -182,6 +196,11 @@ std::vector<Place> beside(const std::vector<Place>& places, const Effect& effect
   return list;
 }
 
+/// The block that makes this wire is among the places: what acts beside a damping behind it acts there.
+bool acts_on(const std::vector<Place>& places, const std::string& wire) {
+  return std::any_of(places.begin(), places.end(), [&](const Place& p) { return p.is_other && p.at == wire; });
+}
+
 /// Nothing but a constant lies between a wire and an output.
 bool is_measured(const Wiring& w, const Registry& registry, const std::string& wire) {
   const auto measured = measured_wires(w);
@@ -212,11 +231,13 @@ std::vector<Place> places_of(const Effect& effect, const Diagram& diagram, const
   }
   const Wiring w(diagram, registry);
   if (!effect.variation.empty()) collect_variations(diagram, registry, effect, "", list);
+  keep_where_it_may_be(effect, diagram, registry, list);
   const bool varied = !list.empty();
   for (auto& place : find_places(diagram, registry)) {
     if (std::find(effect.places.begin(), effect.places.end(), place.kind) == effect.places.end()) continue;
     if (place.kind == "core" && effect.behind_core && !place.behind_core) continue;
     if (effect.else_a_block && place.kind == (varied ? "core" : "measured")) continue;
+    if (place.kind == "damping" && acts_on(list, place.wire)) continue;
     const auto there = standing_at(w, registry, place);
     if (std::find(there.begin(), there.end(), effect.id) != there.end()) continue;
     // "core" before and behind may be one wire: one place.
@@ -252,6 +273,7 @@ Place place_for(const Effect& effect, const Diagram& diagram, const Registry& re
     places.emplace_back().at = at;
   } else if (diagram.blocks.find(at) != nullptr && !effect.variation.empty()) {
     collect_variations(diagram, registry, effect, "", places);
+    keep_where_it_may_be(effect, diagram, registry, places);
     std::erase_if(places, [&](const Place& p) { return p.at != at; });
     if (places.empty()) places = {place_at(diagram, registry, at)};
   } else {

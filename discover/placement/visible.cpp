@@ -11,14 +11,11 @@ namespace hysteron {
 
 namespace {
 
-/// "mass_spring_damper, mass_with_drag": the types that offer a variation.
-std::string offered_by(const std::string& variation, const Registry& registry) {
+/// "mass_spring_damper, mass_with_drag": the types by which an effect may enter.
+std::string offered_by(const Effect& effect, const Registry& registry) {
   std::vector<std::string> types;
-  for (const auto& type : registry.types()) {
-    const auto& offered = registry.find(type)->declaration.variations;
-    if (std::any_of(offered.begin(), offered.end(), [&](const auto& v) { return v.name == variation; }))
-      types.push_back(type);
-  }
+  for (const auto& type : registry.types())
+    if (varied_by(effect, registry.find(type)->declaration) != nullptr) types.push_back(type);
   return fmt::format("{}", fmt::join(types, ", "));
 }
 
@@ -35,8 +32,7 @@ int nearness(const Effect& effect, Excitation at) {
 
 std::string why_no_place(const Effect& e, const Registry& registry) {
   if (!e.variation.empty())
-    return fmt::format("it changes the law of a block, and the diagram has none of: {}",
-                       offered_by(e.variation, registry));
+    return fmt::format("it changes the law of a block, and the diagram has none of: {}", offered_by(e, registry));
   if (e.way == Way::vary)
     return fmt::format("no block of the diagram has the parameter \"{}\" (a memory)", e.parameter);
   if (e.side == Side::temperature) return "no column of the recordings is a temperature beside the outputs";

@@ -40,9 +40,7 @@ class Alone {
         m_(run.m.begin() + b_.m_begin, run.m.begin() + b_.m_begin + b_.sizes.memory),
         next_m_(m_),
         y_(at(b_.sizes.outputs)),
-        k_(4, std::vector<double>(x_.size())) {
-    if (b_.mode_index >= 0) view_.mode = run.mode[at(b_.mode_index)];
-  }
+        k_(4, std::vector<double>(x_.size())) {}
 
   const std::vector<double>& outputs() const { return y_; }
 

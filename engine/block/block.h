@@ -16,8 +16,8 @@
 // With modes, every function may take a Mode as last argument (output, derivative), and the block has
 //   guard(p, s, in, Mode) -> T        positive while the mode may stay; or guard(p, in, Mode), guard(p, s, in, rate,
 //   Mode) next(p, s, in, Mode) -> Mode      the mode that follows; same arguments as guard, all double reset(p, s, in,
-//   Mode before, Mode after) -> State<T>   optional: states at the beginning of the mode `after` initial_mode(p) ->
-//   Mode           optional
+//   Mode before, Mode after) -> State<T>   optional: states at the beginning of the mode `after` initial_mode(p) or
+//   initial_mode(p, s) -> Mode   optional: the one to try first at states that somebody else set
 // A law that has kinks or jumps without modes (a limit, an absolute value, a level) names them:
 //   kinks(p, in) or kinks(p, s, in) -> std::array<double, N>, all double: each number changes its sign at one of them.
 //   Sized form: kinks(View<double>), and Sizes::kinks says how many. The integrators locate them (zero_crossings.h).
@@ -157,7 +157,30 @@ void fixed_reset(const View<T>& v) {
 
 template <class B>
 int fixed_initial_mode(const View<double>& v) {
-  return B::initial_mode(load<double>(typename Types<B, double>::P{}, v.p)).is;
+  using Y = Types<B, double>;
+  const auto p = load<double>(typename Y::P{}, v.p);
+  if constexpr (requires(typename Y::S s) { B::initial_mode(p, s); })
+    return B::initial_mode(p, load<double>(typename Y::S{}, v.x)).is;
+  else
+    return B::initial_mode(p).is;
+}
+
+template <class B>
+bool fixed_is_affine_in_modes(const View<double>& v) {
+  return B::is_affine_in_modes(load<double>(typename Types<B, double>::P{}, v.p));
+}
+
+/// What a fixed block with modes says of them, in numbers.
+template <class B>
+void take_modes(Kernel& k) {
+  using Y = Types<B, double>;
+  k.next_mode = &fixed_next_mode<B>;
+  if constexpr (requires(typename Y::P p) { B::is_affine_in_modes(p); })
+    k.is_affine_in_modes = &fixed_is_affine_in_modes<B>;
+  if constexpr (
+      requires(typename Y::P p) { B::initial_mode(p); } ||
+      requires(typename Y::P p, typename Y::S s) { B::initial_mode(p, s); })
+    k.initial_mode = &fixed_initial_mode<B>;
 }
 
 /// The functions of a fixed block for the scalar T.
@@ -371,10 +394,9 @@ Kernel kernel() {
     if constexpr (!F::sampled && !F::modes) k.lanes = fixed_lanes<B>();
     k.derivative_wants_rate = F::derivative_rate || F::derivative_rate_mode;
     k.guard_wants_rate = F::guard_rate;
-    if constexpr (F::modes) k.next_mode = &fixed_next_mode<B>;
+    if constexpr (F::modes) take_modes<B>(k);
     if constexpr (has_kinks<B>) k.kinks = &fixed_kinks<B>;
     if constexpr (requires(typename Y::P p) { B::is_linear_at(p); }) k.is_linear_at = &fixed_is_linear_at<B>;
-    if constexpr (requires(typename Y::P p) { B::initial_mode(p); }) k.initial_mode = &fixed_initial_mode<B>;
     if constexpr (requires(typename Y::P p, typename Y::I i) { B::rest(p, i); }) k.rest = &fixed_rest<B>;
     if constexpr (requires(typename Y::P p) { B::initial(p); }) k.initial_states = &fixed_initial_states<B>;
     if constexpr (requires(typename Y::P p) { B::start(p); }) k.initial_memory = &fixed_initial_memory<B>;

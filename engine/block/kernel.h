@@ -185,7 +185,7 @@ struct Kernel : Functions<double> {
                                   ///< sampled block: its sampled states
   Call initial_memory = nullptr;  ///< out: memory before the first input (parameters only)
   Call given_memory = nullptr;    ///< out: memory from the numbers m that a diagram gives; absent: these themselves
-  int (*initial_mode)(const View<double>&) = nullptr;        ///< mode to try first (parameters only); absent: 0
+  int (*initial_mode)(const View<double>&) = nullptr;        ///< mode to try first (parameters, states); absent: 0
   int (*next_mode)(const View<double>&) = nullptr;           ///< which mode follows `mode`, whose guard is not positive
   double (*next_breakpoint)(const View<double>&) = nullptr;  ///< first time behind t where the source is not smooth [s]
   double (*shortest_period)(const View<double>&) = nullptr;  ///< shortest period or corner distance of a source [s]
@@ -195,7 +195,8 @@ struct Kernel : Functions<double> {
   bool (*is_linear_at)(const View<double>&) = nullptr;  ///< with these parameters outputs and rates are affine in
                                                         ///< (states, inputs); where Declaration::is_linear is not true.
                                                         ///< False where a parameter that decides is NaN
-  void (*rows)(const RowsView&) = nullptr;              ///< neither sampled nor a source: made by block.h
+  bool (*is_affine_in_modes)(const View<double>&) = nullptr;  ///< the same in each of its modes
+  void (*rows)(const RowsView&) = nullptr;                    ///< neither sampled nor a source: made by block.h
   bool uses_time = false;
   std::string (*check)(const View<double>&) =
       nullptr;  ///< "" or what is wrong with these parameter values, and the cure

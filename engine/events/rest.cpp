@@ -272,6 +272,38 @@ bool modes_stay(const Program& program, const Run& run, double t, const Eigen::V
   return true;
 }
 
+/// Every block whose mode may not stay where the run is goes on to the next one, with its states as they are. Returns
+/// true if one did.
+bool change_modes(const Program& program, Run& run, double t) {
+  if (program.modal_blocks.empty()) return false;
+  Work work(program);
+  evaluate_guards(program, run, work, t, run.x.data());
+  if (work.unsolved >= 0) return false;
+  bool changed = false;
+  for (const int block : program.modal_blocks) {
+    const BlockInstance& b = program.blocks[static_cast<std::size_t>(block)];
+    const auto i = static_cast<std::size_t>(b.mode_index);
+    if (b.sizes.states == 0 || is_off(program, run, b) || work.guard[i] > 0) continue;
+    const int next = b.kernel->next_mode(work.views[static_cast<std::size_t>(block)]);
+    changed = changed || next != run.mode[i];
+    run.mode[i] = next;
+  }
+  return changed;
+}
+
+/// What cannot rest in its mode may move steadily in the next one: a shaft that is driven against its dry friction.
+void move_steadily(const Program& program, Run& run, double t) {
+  Run moving = run;
+  for (std::size_t i = 0; i <= program.modal_blocks.size() && change_modes(program, moving, t); ++i) {
+    RestProblem problem(program, moving, t);
+    const Settled end = settle_from(problem, problem.start());
+    if (!end.reached_rest()) return;
+    problem.finish(end.z, moving);
+  }
+  Run last = moving;
+  if (!change_modes(program, last, t)) run = std::move(moving);
+}
+
 void settle_what_runs(const Program& program, Run& run, double t) {
   RestProblem problem(program, run, t);
   Settled end = settle_from(problem, problem.start());
@@ -280,6 +312,7 @@ void settle_what_runs(const Program& program, Run& run, double t) {
   if (!end.finite()) problem.check_loops(end.z);
   if (!end.reached_rest()) no_rest(program, t, end.rate, end.relative);
   problem.finish(end.z, run);
+  move_steadily(program, run, t);
 }
 
 }  // namespace

@@ -96,6 +96,7 @@ View<double> view_of(const Program& program, const Run& run, int block) {
   v.n_u = b.n_u;
   v.n_y = b.sizes.outputs;
   v.key = b.key;
+  v.mode = b.mode_index < 0 ? 0 : run.mode[static_cast<std::size_t>(b.mode_index)];
   v.t = run.t;
   v.branch = run.branch;
   v.series = b.series_index < 0 ? nullptr : run.series[static_cast<std::size_t>(b.series_index)].get();
@@ -154,6 +155,14 @@ void reset(const Program& program, Run& run) {
     }
   }
   for (const Past& past : program.pasts) walk(program, run, past);
+}
+
+void begin_modes(const Program& program, Run& run) {
+  for (const int block : program.modal_blocks) {
+    const BlockInstance& b = program.blocks[static_cast<std::size_t>(block)];
+    if (b.kernel->initial_mode != nullptr && b.sizes.states > 0)
+      run.mode[static_cast<std::size_t>(b.mode_index)] = b.kernel->initial_mode(view_of(program, run, block));
+  }
 }
 
 Run start(const Program& program) {

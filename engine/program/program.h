@@ -216,6 +216,8 @@ void prepare(const Program& program, Run& run);
 void prepare(const Program& program, Run& run, int block);
 /// States and memory as at the start (after parameters were changed).
 void reset(const Program& program, Run& run);
+/// The modes that go with the states of the run: for whoever put others there behind reset().
+void begin_modes(const Program& program, Run& run);
 void bind_input(const Program& program, Run& run, const std::string& input, SeriesPointer series);
 
 /// A point of the path that a jump follows (path.h): the outputs of jumping blocks lie between, rates are those of a

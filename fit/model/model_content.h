@@ -106,6 +106,7 @@ struct DataModel::Content {
   void find_free_states();
   bool settles(int r) const;
   Run begun_at_start(int r, std::span<const ParameterValue> values);
+  void move_start(const BoundRecording& b, Run& run) const;
   std::vector<std::vector<Rows>> rows_of_each(BoundRecording& b, std::vector<Run> begun);
   Run in_equilibrium(int r, std::span<const ParameterValue> values);
   Run prepared(int r, std::span<const ParameterValue> values) const;

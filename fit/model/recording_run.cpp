@@ -185,6 +185,7 @@ void DataModel::Content::set_start(const Recording& recording, Run& run, double 
            did_you_mean(name, program->state_names));
     run.x[static_cast<std::size_t>(found - program->state_names.begin())] = value;
   }
+  begin_modes(*program, run);
 }
 
 /// values[output][instant] of one recording.
@@ -243,12 +244,18 @@ bool DataModel::Content::settles(int r) const {
   return bound[static_cast<std::size_t>(r)].start.empty() && data->recordings[static_cast<std::size_t>(r)].at_rest;
 }
 
+/// From the equilibrium to the start that was found.
+void DataModel::Content::move_start(const BoundRecording& b, Run& run) const {
+  for (std::size_t k = 0; k < b.start.size(); ++k) run.x[free_state_index[k]] += b.start[k];
+  begin_modes(*program, run);
+}
+
 Run DataModel::Content::begun_at_start(int r, std::span<const ParameterValue> values) {
   const BoundRecording& b = bound[static_cast<std::size_t>(r)];
   const Recording& recording = data->recordings[static_cast<std::size_t>(r)];
   if (from_rest(recording) && !settles(r)) {
     Run run = in_equilibrium(r, values);
-    for (std::size_t k = 0; k < b.start.size(); ++k) run.x[free_state_index[k]] += b.start[k];
+    move_start(b, run);
     return run;
   }
   Run run = prepared(r, values);
@@ -281,14 +288,16 @@ void DataModel::Content::predict_initial(int r, std::span<const ParameterValue> 
   BoundRecording& b = bound[static_cast<std::size_t>(r)];
   const auto k = static_cast<std::size_t>(r);
   Run begun = in_equilibrium(r, values);
-  for (std::size_t i = 0; i < b.start.size(); ++i) begun.x[free_state_index[i]] += b.start[i];
+  move_start(b, begun);
   const auto sizes = nominal_states(*program, begun);
   std::vector<double> steps;
   std::vector<Run> runs_begun{begun};
   for (std::size_t n = 0; n < free_state_index.size(); ++n) {
     const std::size_t state = free_state_index[n];
     steps.push_back(free_state_is_linear[n] ? 1.0 : step_of_a_start * sizes[state]);
-    runs_begun.emplace_back(begun).x[state] += steps.back();
+    Run& moved = runs_begun.emplace_back(begun);
+    moved.x[state] += steps.back();
+    begin_modes(*program, moved);
   }
   auto rows = rows_of_each(b, std::move(runs_begun));
   for (std::size_t n = 0; n < steps.size(); ++n) {

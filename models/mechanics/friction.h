@@ -54,6 +54,14 @@ bool is_absent(const Params<T>& p) {
   return !(p.coulomb > T{0}) && !(p.breakaway > T{0});
 }
 
+/// In each mode the acceleration is a sum of multiples of position, velocity and force, and a constant. False where a
+/// number that decides is NaN.
+template <class T>
+bool is_affine_in_modes(const Params<T>& p) {
+  const bool falls = !(p.stribeck_velocity == T{0}) && !(p.breakaway == p.coulomb);
+  return !falls && p.stiffening == T{0} && p.quadratic == T{0} && p.quintic == T{0} && p.drag == T{0};
+}
+
 /// Force on a mass at rest, before friction: F - spring(x) [N].
 template <class T>
 T pull(const Params<T>& p, const T& position, const T& force) {

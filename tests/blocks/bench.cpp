@@ -132,6 +132,10 @@ bool Bench::is_linear() const {
          (kernel.is_linear_at != nullptr && kernel.is_linear_at(view<double>(p, {}, {}, {}, 0, 0)));
 }
 
+bool Bench::is_affine_in_modes() const {
+  return kernel.is_affine_in_modes != nullptr && kernel.is_affine_in_modes(view<double>(p, {}, {}, {}, 0, 0));
+}
+
 Numbers Bench::output(double t, const Numbers& u, const Numbers& x, const Numbers& m) const {
   return output(t, t, u, x, m);
 }
@@ -183,7 +187,7 @@ int Bench::settle(const Numbers& u, Numbers& x) {
 }
 
 int Bench::initial_mode() const {
-  return kernel.initial_mode == nullptr ? 0 : kernel.initial_mode(view<double>(p, {}, {}, {}, 0, 0));
+  return kernel.initial_mode == nullptr ? 0 : kernel.initial_mode(view<double>(p, {}, initial_states(), {}, 0, 0));
 }
 
 Numbers Bench::rest(const Numbers& u) const {

@@ -37,6 +37,7 @@ class Bench {
 
   void prepare();
   std::string check() const;
+  bool is_affine_in_modes() const;
   bool is_linear() const;  ///< in general, or with these parameters (Kernel::is_linear_at)
 
   /// Outputs for advanced memory `m`; the branch is the time where nothing else is said.

@@ -66,6 +66,7 @@ const std::map<std::string, Example>& examples() {
   const std::pair<std::string, Value> stiff{"contact_stiffness", list({20, 9}, "N/m")},
       slip{"slip_distance", list({10, 40}, "mm")};
   static const std::map<std::string, Example> all{
+      {"integrator", {"V", {{"initial", "0.3 V s"}}}},
       {"gain", {"V", {{"gain", "-1.7 um/V"}}}},
       {"resonance", {"V", {{"frequency", "2 Hz"}, {"damping", 0.1}}}},
       {"mass_spring_damper", mass_with({})},
@@ -230,6 +231,7 @@ TEST_P(Variations, WithOtherValuesGiveOtherTraces) {
       {"torque cogging", {{"cosine", "0.1 N m"}, {"sine", "0.2 N m"}, {"periods", 7.0}}},
       {"torque drag", {{"drag", "3 N m s^2/rad^2"}}},
       {"torque stiffening", {{"stiffening", "1e5 N m/rad^3"}}},
+      {"u friction", {{"level", "0.1 V"}}},
       {"u stiffening", {{"stiffening", "0.3 1/V^2"}}},
       {"torque friction", {{"coulomb", "0.5 N m"}, {"breakaway", "1 N m"}}},
       {"torque presliding", {{"contact_stiffness", "30 N m/rad"}, {"slip_distance", "0.02 rad"}}}};

@@ -68,6 +68,7 @@ const std::map<std::string, const char*>& never_drawn() {
                                                       {"mass_on_bouc_wen_spring", effect},
                                                       {"sliding_friction", effect},
                                                       {"bearing_friction", effect},
+                                                      {"integrator_with_friction", effect},
                                                       {"guide_friction", effect},
                                                       {"variable_dead_time", late},
                                                       {"current_limit", at_limits},

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 #include <string>
@@ -39,9 +40,7 @@ class OneSample : public testing::TestWithParam<bench::Sample> {
   Bench bench_of(const Bench::Values& values) const { return Bench(GetParam().type, values, GetParam().inputs); }
 };
 
-class Linear : public OneSample {};
-TEST_P(Linear, BlocksThatSaySoAreAffineInStatesAndInputs) {
-  const Bench b = bench_of(GetParam().values);
+void expect_affine(const Bench& b) {
   EXPECT_EQ(b.sizes.memory, 0);
   EXPECT_FALSE(b.kernel.uses_time);
   const auto draw = [&](std::uint64_t stream, int n) {
@@ -60,6 +59,16 @@ TEST_P(Linear, BlocksThatSaySoAreAffineInStatesAndInputs) {
     if (b.sizes.states > 0) combine(b.derivative(u1, x1), b.derivative(u2, x2), b.derivative(u, x), mix, "derivative");
     if (b.sizes.sampled_states > 0) combine(b.update(u1, x1), b.update(u2, x2), b.update(u, x), mix, "update");
   }
+}
+
+class Linear : public OneSample {};
+TEST_P(Linear, BlocksThatSaySoAreAffineInStatesAndInputs) { expect_affine(bench_of(GetParam().values)); }
+
+class AffineInModes : public OneSample {};
+TEST_P(AffineInModes, BlocksThatSaySoAreAffineInEachOfThem) {
+  Bench b = bench_of(GetParam().values);
+  ASSERT_TRUE(b.kernel.has_modes());
+  for (b.mode = 0; b.mode < 3; ++b.mode) expect_affine(b);  // stuck, up, down; free, at either limit
 }
 
 class LinearParameters : public OneSample {};
@@ -111,6 +120,9 @@ TEST_P(Rest, IsWhereNothingMoves) {
 INSTANTIATE_TEST_SUITE_P(Blocks, Linear,
                          testing::ValuesIn(bench::samples_where([](const Bench& b) { return b.is_linear(); })),
                          bench::sample_name);
+INSTANTIATE_TEST_SUITE_P(Blocks, AffineInModes,
+                         testing::ValuesIn(bench::samples_where([](const Bench& b) { return b.is_affine_in_modes(); })),
+                         bench::sample_name);
 INSTANTIATE_TEST_SUITE_P(Blocks, LinearParameters, testing::ValuesIn(bench::samples_where([](const Bench& b) {
                            return any_parameter(b, &ParameterDeclaration::is_linear);
                          })),
@@ -128,6 +140,18 @@ TEST(LinearBlocks, AreThoseOfTheExactAdvance) {
   for (const auto& type : {"gain", "sum", "pass", "calibration", "integrator", "transfer_function", "pi_controller",
                            "lag", "creep", "logarithmic_creep"})
     EXPECT_TRUE(bench::kernel_of(type).declaration.is_linear) << type;
+}
+
+TEST(LinearBlocks, FrictionIsAffineInItsModesWithoutAnExcessWhateverItIs) {
+  const auto says = [](const char* type, Bench::Values values) { return Bench(type, values).is_affine_in_modes(); };
+  const double any = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(says("integrator_with_friction", {{"level", {any}}}));
+  EXPECT_TRUE(says("mass_with_friction", {{"mass", {any}}, {"coulomb", {any}}, {"stiffness", {any}}}));
+  EXPECT_TRUE(says("inertia_with_friction", {{"inertia", {1}}, {"coulomb", {2}}, {"breakaway", {2}}}));
+  EXPECT_FALSE(says("integrator_with_friction", {{"level", {1}}, {"excess", {any}}, {"stribeck_velocity", {1}}}));
+  EXPECT_FALSE(
+      says("mass_with_friction", {{"mass", {1}}, {"coulomb", {1}}, {"breakaway", {any}}, {"stribeck_velocity", {1}}}));
+  EXPECT_FALSE(says("mass_with_friction", {{"mass", {1}}, {"coulomb", {1}}, {"drag", {0.1}}}));
 }
 
 TEST(LinearBlocks, ThoseThatAreAtSomeNumbersHaveSamplesOfBothKindsAndNoModes) {

@@ -14,7 +14,15 @@
 namespace hysteron {
 namespace {
 
-using testing::motor;
+/// The motor as one draws it who knows how long it takes to its speed: no integrator makes that, and friction beside
+/// the damping has no other block to enter.
+Diagram lagging() {
+  Diagram d = testing::motor();
+  d.blocks["acceleration"].parameters["gain"] = Value("500 rad/s/(N m)");
+  d.blocks["speed"].type = "lag";
+  d.blocks["speed"].parameters["times"] = Value(NumberList{Number{0.01, "s"}});
+  return d;
+}
 
 class Dampings : public ::testing::Test {
  protected:
@@ -24,8 +32,14 @@ class Dampings : public ::testing::Test {
       if (p.kind == "damping") list.push_back(p.at);
     return list;
   }
+  std::vector<std::string> integrators(const Diagram& d, const char* effect = "friction") {
+    std::vector<std::string> list;
+    for (const auto& p : places_of(effects.get(effect), d, registry))
+      if (p.by == "integrator_with_friction") list.push_back(p.at);
+    return list;
+  }
   Diagram with_gain(const Value& gain) {
-    Diagram d = motor();
+    Diagram d = lagging();
     d.blocks["bearing"].parameters["gain"] = gain;
     return d;
   }
@@ -35,14 +49,48 @@ class Dampings : public ::testing::Test {
 };
 
 TEST_F(Dampings, ArePlacesOfFrictionAlone) {
-  EXPECT_EQ(dampings(motor()), Names{"bearing.in"}) << "not the gain that makes the back-EMF, a voltage";
-  EXPECT_EQ(dampings(motor(), "stribeck_friction"), Names{"bearing.in"});
-  EXPECT_EQ(dampings(motor(), "backlash"), Names{});
-  const Place p = place_at(motor(), registry, "bearing.in");
+  EXPECT_EQ(dampings(lagging()), Names{"bearing.in"}) << "not the gain that makes the back-EMF, a voltage";
+  EXPECT_EQ(dampings(lagging(), "stribeck_friction"), Names{"bearing.in"});
+  EXPECT_EQ(dampings(lagging(), "backlash"), Names{});
+  const Place p = place_at(lagging(), registry, "bearing.in");
   EXPECT_EQ(p.kind, "damping");
   EXPECT_EQ(p.wire, "speed");
   EXPECT_EQ(p.moves_from(), "bearing");
   for (const auto& group : p.group) EXPECT_EQ(group, "bearing.in") << "one finding with no other place";
+}
+
+TEST_F(Dampings, BehindAnIntegratorLeaveTheFrictionToIt) {
+  EXPECT_EQ(dampings(testing::motor()), Names{});
+  EXPECT_EQ(integrators(testing::motor()), Names{"speed"});
+  EXPECT_EQ(integrators(testing::motor(), "stribeck_friction"), Names{"speed"});
+  EXPECT_EQ(integrators(lagging()), Names{});
+  Diagram further = testing::motor();  // what integrates the speed makes an angle
+  further.blocks["angle"].type = "integrator";
+  further.blocks["angle"].in = {{"", "speed"}};
+  further.outputs["angle"] = "angle";
+  EXPECT_EQ(integrators(further), Names{"speed"});
+}
+
+TEST_F(Dampings, TheFrictionOfAnIntegratorIsToldByTheGainBeforeIt) {
+  const Added a = add_effect(testing::motor(), registry, effects.get("friction"), "speed");
+  EXPECT_EQ(a.diagram.blocks.find("speed")->from.find("on")->type, "integrator_with_friction");
+  EXPECT_NO_THROW(compile(a.diagram, registry));
+  EXPECT_EQ(integrators(a.diagram), Names{}) << "it stands there";
+  EXPECT_EQ(diagram_text(remove_effect(a.diagram, registry, "speed")), diagram_text(testing::motor()));
+
+  Place p = places_of(effects.get("friction"), testing::motor(), registry).front();
+  ASSERT_EQ(p.at, "speed");
+  Excitation at;
+  at.unit = parse_unit("rad/s^2");
+  at.by = p.by;
+  at.lowest = -3000;
+  at.highest = 3000;
+  at.inertia = inertia_before(*compile(testing::motor(), registry), p);
+  ASSERT_TRUE(at.inertia.has_value());
+  EXPECT_DOUBLE_EQ(*at.inertia, 2e-5);
+  const auto laws = effects.get("friction").laws(at);
+  const std::string told = effects.get("friction").summary(laws.front(), {600}, at);
+  EXPECT_NE(told.find("600 rad/s^2 (10 % of the acceleration): 0.012 N m"), std::string::npos) << told;
 }
 
 TEST_F(Dampings, AreKnownByTheirUnitHoweverItIsWritten) {
@@ -54,7 +102,7 @@ TEST_F(Dampings, AreKnownByTheirUnitHoweverItIsWritten) {
 }
 
 TEST_F(Dampings, OfACandidateInUseCount) {
-  Diagram d = motor();
+  Diagram d = lagging();
   Node& bearing = d.blocks["bearing"];
   Node choice;
   choice.in = bearing.in;
@@ -67,7 +115,7 @@ TEST_F(Dampings, OfACandidateInUseCount) {
 }
 
 TEST_F(Dampings, GetTheFrictionAndNobodyElse) {
-  const Added a = add_effect(motor(), registry, effects.get("friction"), "bearing.in");
+  const Added a = add_effect(lagging(), registry, effects.get("friction"), "bearing.in");
   EXPECT_EQ(a.name, "speed_friction");
   EXPECT_EQ(a.diagram.blocks.find(a.name)->from.find("on")->type, "bearing_friction");
   EXPECT_EQ(a.diagram.blocks.find("bearing")->in.front().from, a.name);
@@ -75,7 +123,7 @@ TEST_F(Dampings, GetTheFrictionAndNobodyElse) {
   EXPECT_EQ(*a.diagram.outputs.find("w"), "speed");
   EXPECT_NO_THROW(compile(a.diagram, registry));
   EXPECT_EQ(dampings(a.diagram), Names{}) << "it stands there";
-  EXPECT_EQ(diagram_text(remove_effect(a.diagram, registry, a.name)), diagram_text(motor()));
+  EXPECT_EQ(diagram_text(remove_effect(a.diagram, registry, a.name)), diagram_text(lagging()));
 }
 
 TEST_F(Dampings, InsideANestedDiagramAreSeen) {
@@ -84,7 +132,7 @@ TEST_F(Dampings, InsideANestedDiagramAreSeen) {
   d.inputs["u"].unit = "V";
   d.blocks["motor"].type = "diagram";
   d.blocks["motor"].file = "motor.json";
-  d.blocks["motor"].nested = std::make_shared<const Diagram>(motor());
+  d.blocks["motor"].nested = std::make_shared<const Diagram>(lagging());
   d.blocks["motor"].in = {{"u", "u"}};
   d.outputs["w"] = "motor.w";
   EXPECT_EQ(dampings(d), Names{"motor/bearing.in"});
@@ -98,13 +146,13 @@ TEST_F(Dampings, InsideANestedDiagramAreSeen) {
 }
 
 TEST_F(Dampings, TellTheLawsWhatTheyMakeOfASpeed) {
-  const auto program = compile(motor(), registry);
-  const Place p = place_at(motor(), registry, "bearing.in");
+  const auto program = compile(lagging(), registry);
+  const Place p = place_at(lagging(), registry, "bearing.in");
   const auto damping = damping_behind(*program, p, parse_unit("rad/s"));
   ASSERT_TRUE(damping.has_value());
   EXPECT_DOUBLE_EQ(*damping, 3e-4);
   EXPECT_FALSE(damping_behind(*program, p, parse_unit("")).has_value()) << "kg/s may be a flow";
-  EXPECT_FALSE(damping_behind(*program, place_at(motor(), registry, "speed"), parse_unit("rad/s")).has_value());
+  EXPECT_FALSE(damping_behind(*program, place_at(lagging(), registry, "speed"), parse_unit("rad/s")).has_value());
 
   Excitation at;
   at.unit = parse_unit("rad/s");

@@ -70,6 +70,34 @@ TEST(Rest, WhatSticksRestsWhereItIsHeld) {
   }
 }
 
+TEST(Rest, WhatIsDrivenAgainstItsDryFrictionMovesSteadily) {
+  // A motor: w' = 4 (u - 0.1 w - 3 w - 0.8 sgn w). It turns steadily at (|u| - 0.8)/3.1 rad/s and is held up to 1 V.
+  for (const double volts : {0.9, 4.0, -4.0}) {
+    const auto program = compiled(diagram(
+        {{"u", block("constant", {{"value", std::to_string(volts) + " V"}})},
+         {"drive", block("sum", {{"signs", "+-"}}, {"u", "back"})},
+         {"torque", block("gain", {{"gain", "1 N m/V"}}, {"drive"})},
+         {"net", block("sum", {{"signs", "+-"}}, {"torque", "bearing"})},
+         {"acceleration", block("gain", {{"gain", "4 rad/s^2/(N m)"}}, {"net"})},
+         {"speed",
+          block("integrator_with_friction",
+                {{"level", "3.2 rad/s^2"}, {"excess", 0.25}, {"stribeck_velocity", "0.01 rad/s"}}, {"acceleration"})},
+         {"bearing", block("gain", {{"gain", "3 N m s/rad"}}, {"speed"})},
+         {"back", block("gain", {{"gain", "0.1 V s/rad"}}, {"speed"})}},
+        {"speed"}));
+    const auto run = settled(*program);
+    const double expected = std::abs(volts) < 1 ? 0 : std::copysign((std::abs(volts) - 0.8) / 3.1, volts);
+    EXPECT_NEAR(run.x[static_cast<std::size_t>(state(*program, "speed"))], expected, 1e-9) << volts;
+    SimulateOptions options;
+    options.at_rest = true;
+    options.until = 2;
+    options.instants = {0, 1, 2};
+    options.signals = {program->signal("speed")};
+    const auto traces = simulate(*program, start(*program), options);
+    for (const double y : traces.values[0]) EXPECT_NEAR(y, expected, 1e-8) << volts;
+  }
+}
+
 TEST(Rest, MemoryInsideALoopFollowsToItsEquilibrium) {
   // y = play(1.5 (r - y)) behind a lag, radius 0.2: rising to it, y = 1.5 (r - y) - 0.2, so y = (1.5 r - 0.2) / 2.5.
   const auto program = compiled(diagram({{"r", block("constant", {{"value", "3 V"}})},

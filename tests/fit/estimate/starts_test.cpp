@@ -104,6 +104,70 @@ TEST(Starts, AreFoundBehindANonlinearLawBesideItsParameters) {
   EXPECT_NEAR(start[1 - position], -0.1, 5e-4);
 }
 
+/// A speed that 2/s and dry friction of 6 rad/s^2 bring to rest: from w0 it is (w0 + 3) exp(-2 t) - 3, and then 0.
+Diagram braked_shaft() {
+  Diagram d = lab::diagram("speed");
+  lab::add(d, "push", "gain", "u").parameters["gain"] = "1 rad/s^2/V";
+  auto& net = lab::add(d, "net", "sum", "push");
+  net.in.push_back({"", "bearing"});
+  net.parameters["signs"] = "+-";
+  lab::add(d, "speed", "integrator_with_friction", "net").parameters["level"] = "6 rad/s^2";
+  lab::add(d, "bearing", "gain", "speed").parameters["gain"] = "2 1/s";
+  return d;
+}
+
+constexpr double noise_of_speed = 1e-3;  // [rad/s]
+
+DataSet braked(double w0) {
+  DataSet data;
+  data.notes["y"].noise.white = noise_of_speed;
+  lab::Noise random(11);
+  auto r = lab::recording("coast", Role::train, 0.01, 200, [](double) { return 0.0; });
+  r.units["y"] = parse_unit("rad/s");
+  r.columns["y"].clear();
+  for (const double t : r.t)
+    r.columns["y"].push_back(std::copysign(std::max(0.0, (std::abs(w0) + 3) * std::exp(-2 * t) - 3), w0) +
+                             noise_of_speed * random());
+  data.recordings.push_back(std::move(r));
+  return data;
+}
+
+TEST(Starts, OfWhatSlidesBeginSlidingRowByRowAndByTheIntegrator) {
+  for (const double w0 : {5.0, -5.0})
+    for (const bool by_cvode : {false, true}) {
+      DataSet data = braked(w0);
+      data.recordings[0].at_rest = false;
+      const auto program = compile(braked_shaft(), lab::registry());
+      data.recordings[0].initial_values[program->state_names.front()] = w0;
+      DataModel model(program, lab::shared(data), {.force_cvode = by_cvode});
+      EXPECT_EQ(model.why_not_exact().empty(), !by_cvode) << model.why_not_exact();
+      const std::vector<int> recordings{0};
+      const Prediction predicted = model.predict({}, recordings);
+      ASSERT_TRUE(predicted.ok) << predicted.error;
+      const auto& y = predicted.y[0][0];
+      const auto& t = data.recordings[0].t;
+      for (std::size_t k = 0; k < t.size(); ++k)  // the integrator's 1e-6 of 5 rad/s
+        EXPECT_NEAR(y[k], std::copysign(std::max(0.0, 8 * std::exp(-2 * t[k]) - 3), w0), 1e-5) << t[k];
+    }
+}
+
+TEST(Starts, OfWhatSlidesAreFoundBesideItsFriction) {
+  DataSet data = braked(-5);
+  start_free(data.recordings[0]);
+  const auto program = compile(braked_shaft(), lab::registry());
+  DataModel model(program, lab::shared(data));
+  auto free = free_parameters(*program, {"speed.level", "bearing.gain"});
+  ASSERT_EQ(free.size(), 2U);
+  for (auto& f : free) f.start *= 1.3;
+  const auto r = fit(model, noise_before_fit(model), free);
+  ASSERT_TRUE(r.ok) << r.error;
+  for (const auto& e : r.estimates) {  // 50 rows before it stops: 1e-3/sqrt(50) of 5, and the slope by half of that
+    const double truth = e.path == "speed.level" ? 6 : 2;
+    EXPECT_NEAR(e.used, truth, 4 * e.sigma.value_or(0) + 1e-4 * truth) << e.path;
+  }
+  EXPECT_NEAR(r.after.find(0)->rms[0], noise_of_speed, 0.15 * noise_of_speed) << "200 rows know an rms to 5 %";
+}
+
 TEST(Starts, OfARecordingAtRestStayThere) {
   const DataSet data = recorded(0.02, 0);
   const auto program = compile(hard_spring(), lab::registry());
