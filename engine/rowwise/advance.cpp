@@ -7,7 +7,8 @@
 // and loops of linear blocks, algebraic ones too, are exact. A row is one pass over the depths: the linear systems step
 // with their inputs moving linearly, then the nonlinear blocks of that depth follow, their states by the Runge-Kutta
 // formula of order four (rows.h). Feedback loops with nonlinear blocks move as a whole, by the same formula along the
-// program's own steps, cut where one of them changes its mode, and count as one nonlinear block. A signal behind a
+// program's own steps, what decays in a mode taken exactly, cut where one of them changes its mode, and count as one
+// nonlinear block. A signal behind a
 // nonlinear block is taken as linear between substeps, which, with that formula, is the only approximation; the caller
 // doubles the substeps until nothing changes. What stands still between the instants of sampled blocks stands still
 // behind a nonlinear block, too: no substeps.

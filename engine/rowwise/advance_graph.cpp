@@ -243,24 +243,36 @@ AdvanceGraph advance_graph(const Program& program, const std::vector<bool>& line
   return Builder(program, linear_too)();
 }
 
+namespace {
+
+/// What a kernel says of the numbers of this run, whatever those are that vary.
+bool is_so(const Program& program, const Run& run, int b, bool (*says)(const View<double>&)) {
+  if (says == nullptr) return false;
+  const BlockInstance& block = program.blocks[at(b)];
+  auto view = view_of(program, run, b);
+  const auto count = block.p_at.back();
+  std::vector<double> numbers(view.p, view.p + count);
+  for (const int place : run.varied)
+    if (place >= block.p_begin && place < block.p_begin + count)
+      numbers[at(place - block.p_begin)] = std::numeric_limits<double>::quiet_NaN();
+  view.p = numbers.data();
+  return says(view);
+}
+
+}  // namespace
+
 std::vector<bool> linear_at(const Program& program, const Run& run) {
   std::vector<bool> linear;
-  std::vector<double> numbers;
   for (std::size_t b = 0; b < program.blocks.size(); ++b) {
-    const BlockInstance& block = program.blocks[b];
-    if (block.kernel->is_linear_at == nullptr) continue;
-    auto view = view_of(program, run, static_cast<int>(b));
-    const auto count = block.p_at.back();
-    numbers.assign(view.p, view.p + count);
-    for (const int place : run.varied)
-      if (place >= block.p_begin && place < block.p_begin + count)
-        numbers[at(place - block.p_begin)] = std::numeric_limits<double>::quiet_NaN();
-    view.p = numbers.data();
-    if (!block.kernel->is_linear_at(view)) continue;
+    if (!is_so(program, run, static_cast<int>(b), program.blocks[b].kernel->is_linear_at)) continue;
     linear.resize(program.blocks.size(), false);
     linear[b] = true;
   }
   return linear;
+}
+
+bool affine_in_modes(const Program& program, const Run& run, int block) {
+  return is_so(program, run, block, program.blocks[at(block)].kernel->is_affine_in_modes);
 }
 
 std::string changes_mode(const BlockInstance& block) {

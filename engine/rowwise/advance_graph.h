@@ -38,6 +38,9 @@ AdvanceGraph advance_graph(const Program& program, const std::vector<bool>& line
 /// Per block: linear at the numbers of this run (Kernel::is_linear_at), whatever those are that vary. Empty: none.
 std::vector<bool> linear_at(const Program& program, const Run& run);
 
+/// Likewise of one block in each of its modes (Kernel::is_affine_in_modes).
+bool affine_in_modes(const Program& program, const Run& run, int block);
+
 /// Why a block with modes is left to an integrator, which finds when they change.
 std::string changes_mode(const BlockInstance& block);
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/block/rows.h"
 #include "engine/diagram/error.h"
@@ -21,10 +22,11 @@ constexpr double root_width_of_row = 1e-12;
 }  // namespace
 
 AdvanceLoop::AdvanceLoop(const AdvancePlan& plan, const AdvancePlan::LoopedPart& part, Run& run, Work& work,
-                         std::vector<double>& x)
+                         std::vector<double>& x, std::unique_ptr<JetWork>& jets)
     : plan_(plan),
       part_(part),
       program_(*plan.program),
+      jets_(jets),
       run_(run),
       work_(work),
       x_(x),
@@ -42,6 +44,10 @@ AdvanceLoop::AdvanceLoop(const AdvancePlan& plan, const AdvancePlan::LoopedPart&
 void AdvanceLoop::start(bool accept) {
   for (std::size_t i = 0; i < before_.size(); ++i) before_[i] = work_.y[at(part_.inputs[i])];
   if (matrices_) matrices_->bind(run_);
+  known_.clear();
+  now_in_ = nullptr;
+  is_affine_ = std::all_of(part_.blocks.begin(), part_.blocks.end(),
+                           [&](int b) { return plan_.graph.linear[at(b)] || affine_in_modes(program_, run_, b); });
   values();
   if (!accept) return;
   accept_values();
@@ -129,15 +135,56 @@ void AdvanceLoop::step(double begin, double end, double length, double duration)
   const std::size_t n = part_.states.size();
   for (std::size_t i = 0; i < n; ++i) states_[i] = x_[at(part_.states[i])];
   for (std::size_t i = 0; i < now_.size(); ++i) work_.rate[at(part_.inputs[i])] = (now_[i] - before_[i]) / duration;
-  block_detail::runge_kutta(static_cast<int>(n), states_.data(), length, scratch_.data(),
-                            [&](double c, const double* states, double* rates) {
-                              put_inputs(begin + c * (end - begin));
-                              for (std::size_t i = 0; i < n; ++i) x_[at(part_.states[i])] = states[i];
-                              derivatives();
-                              for (std::size_t i = 0; i < n; ++i) rates[i] = work_.dx[at(part_.states[i])];
-                            });
+  const auto rates = [&](double c, const double* states, double* rates) {
+    put_inputs(begin + c * (end - begin));
+    for (std::size_t i = 0; i < n; ++i) x_[at(part_.states[i])] = states[i];
+    derivatives();
+    for (std::size_t i = 0; i < n; ++i) rates[i] = work_.dx[at(part_.states[i])];
+  };
+  ExponentialStep* exact = in_this_mode(length);
+  const bool whole_row = begin == 0 && end == 1;
+  if (exact != nullptr && is_affine_)
+    exact->along_a_line(states_.data(), length, whole_row, rates);
+  else if (exact != nullptr)
+    (*exact)(states_.data(), length, whole_row, rates);
+  else
+    block_detail::runge_kutta(static_cast<int>(n), states_.data(), length, scratch_.data(), rates);
   put_states(states_);
   put_inputs(end);
+}
+
+/// The step with the slopes of the modes as they are; nullptr where there is none: of too many states, driven by rates,
+/// along a jump, or where something grows within the length [s], as friction that falls does at its steepest only.
+ExponentialStep* AdvanceLoop::in_this_mode(double length) {
+  const std::size_t n = part_.states.size();
+  if (!matrices_ || n == 0 || n > ExponentialStep::most_states || work_.path != nullptr || !(length > 0))
+    return nullptr;
+  if (now_in_ == nullptr) {
+    std::vector<int> modes;
+    for (const int block : part_.modal) modes.push_back(run_.mode[at(plan_.block(block).mode_index)]);
+    auto found = std::find_if(known_.begin(), known_.end(), [&](const InMode& m) { return m.modes == modes; });
+    if (found == known_.end())
+      found = known_.insert(found, {std::move(modes), ExponentialStep(static_cast<int>(n), slopes())});
+    now_in_ = &found->step;
+  }
+  const double growth = now_in_->growth();
+  return growth * length <= 1 || (is_affine_ && !std::isnan(growth)) ? now_in_ : nullptr;
+}
+
+/// Of the rates of the states over these, where the loop is.
+std::vector<double> AdvanceLoop::slopes() {
+  const std::size_t n = part_.states.size();
+  if (!jets_) jets_ = std::make_unique<JetWork>(program_);
+  jets_->refresh(run_);
+  steps::begin(program_, run_, *jets_, run_.t);
+  for (const int s : part_.inputs) jets_->y[at(s)] = work_.y[at(s)];
+  std::vector<Jet> x(x_.begin(), x_.end());
+  for (std::size_t i = 0; i < n; ++i) x[at(part_.states[i])].slope[i] = 1;
+  steps::run(part_.derivatives, program_, *jets_, x.data());
+  std::vector<double> list;
+  for (const int to : part_.states)
+    for (std::size_t i = 0; i < n; ++i) list.push_back(jets_->dx[at(to)].slope[i]);
+  return list;
 }
 
 void AdvanceLoop::put_inputs(double place) {
@@ -216,6 +263,7 @@ void AdvanceLoop::change_modes(const std::vector<double>& g) {
     if (b.kernel->reset != nullptr) b.kernel->reset(v);
     run_.mode[at(b.mode_index)] = after;
   }
+  now_in_ = nullptr;
   x_ = reset_;
 }
 

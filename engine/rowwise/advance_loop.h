@@ -1,23 +1,26 @@
 // Decides how one feedback loop with nonlinear blocks moves from point to point: its states together, by the
-// Runge-Kutta formula, linear blocks as sums (loop_matrices.h), or, where a law asks for the rate of its input, along
-// the program's own steps; where a block of it changes its mode, the way is cut right behind.
-// Does not decide which blocks are one loop: advance_graph.h. Internal to the exact advance.
+// Runge-Kutta formula, linear blocks as sums (loop_matrices.h), what decays in a mode exactly, or, where a law asks for
+// the rate of its input, along the program's own steps; where a block of it changes its mode, the way is cut right
+// behind. Does not decide which blocks are one loop: advance_graph.h. Internal to the exact advance.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "engine/integrators/root_bracket.h"
 #include "engine/rowwise/advance_plan.h"
+#include "engine/rowwise/exponential_step.h"
 #include "engine/rowwise/loop_matrices.h"
 
 namespace hysteron {
 
 class AdvanceLoop {
  public:
-  /// Moves the states `x`, and the memory and modes of `run`, which `work` is bound to; all outlive it.
+  /// Moves the states `x`, and the memory and modes of `run`, which `work` is bound to; all outlive it. jets: made when
+  /// the first loop needs them.
   AdvanceLoop(const AdvancePlan& plan, const AdvancePlan::LoopedPart& part, Run& run, Work& work,
-              std::vector<double>& x);
+              std::vector<double>& x, std::unique_ptr<JetWork>& jets);
 
   /// Nothing moves at the start. accept: memory and modes are those of the first point.
   void start(bool accept);
@@ -38,12 +41,23 @@ class AdvanceLoop {
   void settle();
   bool look_at_guards(std::vector<double>& g);
   void change_modes(const std::vector<double>& g);
+  ExponentialStep* in_this_mode(double length);
+  std::vector<double> slopes();
   [[noreturn]] void report_unsettled(const char* code, int changes) const;
 
   const AdvancePlan& plan_;
   const AdvancePlan::LoopedPart& part_;
   const Program& program_;
+  struct InMode {
+    std::vector<int> modes;  ///< of the blocks that have some
+    ExponentialStep step;
+  };
+
   std::optional<LoopMatrices> matrices_;
+  std::unique_ptr<JetWork>& jets_;
+  std::vector<InMode> known_;  ///< of this run
+  ExponentialStep* now_in_ = nullptr;
+  bool is_affine_ = false;  ///< in each mode, at the numbers of this run
   Run& run_;
   Work& work_;
   std::vector<double>& x_;

@@ -28,7 +28,7 @@ AdvanceState::AdvanceState(const AdvancePlan& plan)
     scratch = std::max(scratch, RowsView::scratch_size(b.n_u, b.sizes.states, b.sizes.memory, b.sizes.outputs));
   scratch_.resize(scratch);
   loops_.reserve(plan.loops.size());
-  for (const auto& loop : plan.loops) loops_.emplace_back(plan, loop, run, work, x);
+  for (const auto& loop : plan.loops) loops_.emplace_back(plan, loop, run, work, x, jets_);
   for (std::size_t i = 0; i < input_places_.size(); ++i) input_places_[i] = inputs_.data() + 2 * i + 1;
   for (std::size_t i = 0; i < output_places_.size(); ++i) output_places_[i] = y.data() + i;
 }

@@ -3,6 +3,7 @@
 // advance.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -74,6 +75,7 @@ class AdvanceState {
   std::vector<double> inputs_, scratch_;
   std::vector<const double*> input_places_;
   std::vector<double*> output_places_;
+  std::unique_ptr<JetWork> jets_;  ///< of all loops
   std::vector<AdvanceLoop> loops_;
 };
 

@@ -127,13 +127,31 @@ TEST(AdvanceLoops, TheSameRowByRowAndManyAtOnce) {
   EXPECT_LT(distance(fast, slow), 1e-12 * largest(fast));
 }
 
-TEST(AdvanceLoops, WhatIsTooStiffIsLeftToTheIntegrator) {
-  // A time constant of 10 ns behind a bend: rows of 10 ms would have to be split into a million steps.
-  const Blocks blocks{{"e", block("sum", {{"signs", "+-"}}, {"u", "x"})},
-                      {"limited", block("saturation", {{"lower", "-100 V"}, {"upper", "100 V"}}, {"e"})},
-                      {"speed", block("gain", {{"gain", "1e8 1/s"}}, {"limited"})},
-                      {"x", block("integrator", {}, {"speed"})}};
+Blocks following(Node law, const char* speed) {
+  return {{"e", block("sum", {{"signs", "+-"}}, {"u", "x"})},
+          {"law", std::move(law)},
+          {"speed", block("gain", {{"gain", speed}}, {"law"})},
+          {"x", block("integrator", {}, {"speed"})}};
+}
+
+TEST(AdvanceLoops, WhatDecaysAtOnceIsTakenExactly) {
+  // A time constant of 10 ns behind a limit that nothing reaches.
+  const Blocks blocks = following(block("saturation", {{"lower", "-100 V"}, {"upper", "100 V"}}, {"e"}), "1e8 1/s");
   const auto u = wave(0.4, 40);
+  const auto traces = traces_of(blocks, {"x"}, u, Method::exact, 1e-6);
+  for (std::size_t k = 0; k < u->t.size(); ++k) EXPECT_NEAR(traces.values[0][k], u->v[k], 1e-6);
+}
+
+TEST(AdvanceLoops, WhatIsTooStiffIsLeftToTheIntegrator) {
+  // Within 10 mV of its input it stands still, beyond it follows in 1 us: where the input turns rows of 10 ms would
+  // have to be split into ten thousand steps.
+  const Blocks blocks = following(block("dead_zone", {{"lower", "-10 mV"}, {"upper", "10 mV"}}, {"e"}), "1e6 1/s");
+  std::vector<double> t, v;
+  for (int k = 0; k < 40; ++k) {
+    t.push_back(0.01 * k);
+    v.push_back(0.4 * std::sin(7 * t.back()));
+  }
+  const auto u = series(t, v, Between::linear);
   EXPECT_NE(traces_of(blocks, {"x"}, u, Method::automatic, 1e-6).statistics.method, "exact");
   try {
     traces_of(blocks, {"x"}, u, Method::exact, 1e-6);
