@@ -48,7 +48,11 @@ void put(const Matrix& from, std::vector<double>& to) {
 
 ExponentialStep::ExponentialStep(int n, std::vector<double> slopes) : n_(n), slopes_(std::move(slopes)) {
   const Eigen::MatrixXd a = Eigen::Map<const Eigen::MatrixXd>(slopes_.data(), n_, n_);  // or its transpose
-  growth_ = a.allFinite() ? a.eigenvalues().real().maxCoeff() : std::numeric_limits<double>::quiet_NaN();
+  growth_ = fastest_ = std::numeric_limits<double>::quiet_NaN();
+  if (!a.allFinite()) return;
+  const Eigen::VectorXcd eigenvalues = a.eigenvalues();
+  growth_ = eigenvalues.real().maxCoeff();
+  fastest_ = eigenvalues.cwiseAbs().maxCoeff();
 }
 
 const ExponentialStep::Lengths& ExponentialStep::of_row(double h) {

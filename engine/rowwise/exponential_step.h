@@ -18,6 +18,8 @@ class ExponentialStep {
   /// What grows exactly is cancelled by the rest of f where f does not grow so everywhere. Largest real part of the
   /// eigenvalues of A [1/s]; not a number where A is none.
   double growth() const { return growth_; }
+  /// Largest size of the eigenvalues [1/s].
+  double fastest() const { return fastest_; }
 
   /// Moves x by h [s], a whole row or a part of one, of which no two are of one length; rates(place, x, dx): f at a
   /// place from 0, the beginning, to 1, the end. Source: Cox, Matthews, J. Comput. Phys. 176 (2002) 430-455, ETD4RK,
@@ -87,7 +89,7 @@ class ExponentialStep {
 
   int n_;
   std::vector<double> slopes_;
-  double growth_ = 0;
+  double growth_ = 0, fastest_ = 0;
   Lengths row_, part_;  // rows are of one length, most of the time
 };
 
