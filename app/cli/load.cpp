@@ -14,6 +14,7 @@
 #include "engine/compile/draft.h"
 #include "engine/diagram/error.h"
 #include "engine/diagram/settings.h"
+#include "engine/program/names.h"
 #include "fit/inspect/inspection.h"
 #include "io/diagram/diagram_file.h"
 
@@ -134,14 +135,8 @@ Effects load_effects(const Arguments& arguments) {
 Run start_recording(const Program& program, const DataSet& data, const Recording& recording) {
   Run run = start(program);
   for (const auto& input : program.input_names) bind_input(program, run, input, input_series(data, recording, input));
-  for (const auto& [path, value] : recording.initial_values) {
-    bool found = false;
-    for (std::size_t i = 0; i < program.state_names.size(); ++i)
-      if (program.state_names[i] == path) run.x[i] = value, found = true;
-    if (!found)
-      fail("unknown_state", recording.name + ": initial/" + path, "the diagram has no state \"" + path + "\"",
-           did_you_mean(path, program.state_names));
-  }
+  for (const auto& [path, value] : recording.initial_values)
+    run.x[static_cast<std::size_t>(named_state(program, path))] = value;
   begin_modes(program, run);
   return run;
 }

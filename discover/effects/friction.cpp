@@ -62,8 +62,7 @@ Effect friction() {
   e.equation =
       "F = coulomb*sgn(v), with more at low speed: coulomb*excess*exp(-|v/stribeck_velocity|^d), d = 1, 2; or, giving "
       "way before it slides, F = stiffness*(z + contact_time*z'),  z' = v - |v|*z/distance: sticks like a spring, slips "
-      "at "
-      "stiffness*distance; before an integrator that makes a speed v' = a - level*sgn(v); without a mass "
+      "at stiffness*distance; before an integrator that makes a speed v' = a - level*sgn(v); without a mass "
       "y = u - level*z/distance, v of y; beside a damping b: F = b*(v + level*z/distance)";
   e.source =
       "Dahl, AIAA J. 14 (1976) 1675; richer: Canudas de Wit, Olsson, Astrom, Lischinsky, IEEE Trans. Autom. Control 40 "
@@ -87,8 +86,8 @@ Effect friction() {
       {"stribeck_velocity", "m/s, rad/s", "at which the excess is gone", "0.1 .. 10 mm/s"},
       {"contact_time", "s", "richest law: damping over stiffness of the contact while it sticks", ""},
       {"level", "unit of the wire",
-       "of an integrator that makes a speed: what it takes away of the acceleration; beside a damping, or on a wire that carries a speed: friction over the damping behind it; a motion: what is held "
-       "back",
+       "of an integrator that makes a speed: what it takes away of the acceleration; beside a damping, or on a wire "
+       "that carries a speed: friction over the damping behind it; a motion: what is held back",
        ""},
       {"crossover", "m/s", "there: below it flows like a fluid (dampers with a yield force)", ""}};
   e.look_alikes = {{"hysteresis", "load_pair", "friction grows with the load and needs a guide"},

@@ -59,7 +59,13 @@ std::vector<std::string> standing_at(const Wiring& w, const Registry& registry, 
       ids.push_back(inserted.effect);
       s = w.signal(inserted.in.front().from);
     }
-  collect(start_of_chain(w, w.signal(place.wire)));
+  const std::string start = start_of_chain(w, w.signal(place.wire));
+  collect(start);
+  const Node* maker = w.diagram().blocks.find(w.source(start));
+  if (place.kind == "damping" && maker != nullptr) {  // what varies the block that makes the speed acts there, too
+    ids.push_back(maker->effect);
+    for (const auto& [name, candidate] : maker->from) ids.push_back(candidate.effect);
+  }
   return ids;
 }
 
@@ -198,7 +204,8 @@ std::vector<Place> beside(const std::vector<Place>& places, const Effect& effect
 
 /// The block that makes this wire is among the places: what acts beside a damping behind it acts there.
 bool acts_on(const std::vector<Place>& places, const std::string& wire) {
-  return std::any_of(places.begin(), places.end(), [&](const Place& p) { return p.is_other && p.at == wire; });
+  const std::string block = wire.substr(0, wire.find('.'));
+  return std::any_of(places.begin(), places.end(), [&](const Place& p) { return !p.by.empty() && p.at == block; });
 }
 
 /// Nothing but a constant lies between a wire and an output.

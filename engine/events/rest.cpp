@@ -275,7 +275,6 @@ bool modes_stay(const Program& program, const Run& run, double t, const Eigen::V
 /// Every block whose mode may not stay where the run is goes on to the next one, with its states as they are. Returns
 /// true if one did.
 bool change_modes(const Program& program, Run& run, double t) {
-  if (program.modal_blocks.empty()) return false;
   Work work(program);
   evaluate_guards(program, run, work, t, run.x.data());
   if (work.unsolved >= 0) return false;
@@ -293,15 +292,18 @@ bool change_modes(const Program& program, Run& run, double t) {
 
 /// What cannot rest in its mode may move steadily in the next one: a shaft that is driven against its dry friction.
 void move_steadily(const Program& program, Run& run, double t) {
+  if (program.modal_blocks.empty()) return;
   Run moving = run;
-  for (std::size_t i = 0; i <= program.modal_blocks.size() && change_modes(program, moving, t); ++i) {
+  for (std::size_t changes = 0; changes <= program.modal_blocks.size(); ++changes) {
+    if (!change_modes(program, moving, t)) {
+      if (changes > 0) run = std::move(moving);
+      return;
+    }
     RestProblem problem(program, moving, t);
     const Settled end = settle_from(problem, problem.start());
     if (!end.reached_rest()) return;
     problem.finish(end.z, moving);
   }
-  Run last = moving;
-  if (!change_modes(program, last, t)) run = std::move(moving);
 }
 
 void settle_what_runs(const Program& program, Run& run, double t) {

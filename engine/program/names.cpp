@@ -136,4 +136,12 @@ int named_parameter(const Program& program, const std::string& name) {
   return list.front();
 }
 
+int named_state(const Program& program, const std::string& name) {
+  const auto& names = program.state_names;
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end())
+    fail("unknown_state", name, fmt::format("the diagram has no state \"{}\"", name), did_you_mean(name, names));
+  return static_cast<int>(found - names.begin());
+}
+
 }  // namespace hysteron

@@ -36,4 +36,7 @@ std::vector<int> named_parameters(const Program& program, const std::string& nam
 /// One number; throws Error "unknown_parameter", also where a list of several is named as a whole.
 int named_parameter(const Program& program, const std::string& name);
 
+/// Place in program.state_names ("stage.position"); throws Error "unknown_state" with the nearest names.
+int named_state(const Program& program, const std::string& name);
+
 }  // namespace hysteron

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/events/rest.h"
+#include "engine/program/names.h"
 #include "engine/program/nominal.h"
 #include "engine/rowwise/schedule.h"
 #include "engine/simulate/simulate.h"
@@ -177,14 +178,8 @@ bool DataModel::Content::from_rest(const Recording& recording) const {
 /// States that the data set gives; the others stay as declared.
 void DataModel::Content::set_start(const Recording& recording, Run& run, double t) const {
   run.t = t;
-  for (const auto& [name, value] : recording.initial_values) {
-    const auto found = std::find(program->state_names.begin(), program->state_names.end(), name);
-    if (found == program->state_names.end())
-      fail("unknown_state", name,
-           fmt::format("recording {} gives a start for \"{}\", which is no state", recording.name, name),
-           did_you_mean(name, program->state_names));
-    run.x[static_cast<std::size_t>(found - program->state_names.begin())] = value;
-  }
+  for (const auto& [name, value] : recording.initial_values)
+    run.x[static_cast<std::size_t>(named_state(*program, name))] = value;
   begin_modes(*program, run);
 }
 

@@ -76,6 +76,7 @@ TEST_F(Dampings, TheFrictionOfAnIntegratorIsToldByTheGainBeforeIt) {
   EXPECT_EQ(a.diagram.blocks.find("speed")->from.find("on")->type, "integrator_with_friction");
   EXPECT_NO_THROW(compile(a.diagram, registry));
   EXPECT_EQ(integrators(a.diagram), Names{}) << "it stands there";
+  EXPECT_EQ(dampings(a.diagram), Names{}) << "beside the damping it would be the same force";
   EXPECT_EQ(diagram_text(remove_effect(a.diagram, registry, "speed")), diagram_text(testing::motor()));
 
   Place p = places_of(effects.get("friction"), testing::motor(), registry).front();

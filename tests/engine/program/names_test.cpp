@@ -173,6 +173,20 @@ TEST(Names, AnUnknownNameIsToldWithTheNearestThreeAtMost) {
       << "a few are all told";
 }
 
+TEST(Names, AStateIsFoundOrToldWithTheNearest) {
+  const auto program = compile(axes(), registry());
+  ASSERT_FALSE(program->state_names.empty());
+  for (std::size_t i = 0; i < program->state_names.size(); ++i)
+    EXPECT_EQ(named_state(*program, program->state_names[i]), static_cast<int>(i));
+  try {
+    named_state(*program, program->state_names.front() + "x");
+    FAIL();
+  } catch (const Error& e) {
+    EXPECT_EQ(e.problems.front().code, "unknown_state");
+    EXPECT_NE(e.problems.front().cure.find(program->state_names.front()), std::string::npos) << e.what();
+  }
+}
+
 TEST(Names, ABlockWhoseOwnParametersDisagreeIsToldAloneAndInTheUnitsOfTheFile) {
   Diagram d;
   d.blocks["drive"] = node("sine", {}, {{"amplitude", "3 mm"}, {"offset", "3 V"}, {"frequency", "5 Hz"}});
